@@ -1,9 +1,9 @@
-// Photos for benches that drive the page: dots in noise, drawn and compressed by the browser itself.
+// Photos for benches that drive the page: dots in noise, drawn and compressed by the browser.
 
-/** Half axes of the least dot; the others are up to 8 and 5 pixels larger. */
-const LEAST = [14, 13];
+/** Semi-axes of the smallest dot in pixels; the others are up to 8 and 5 pixels larger. */
+const SMALLEST = [14, 13];
 
-/** A JPEG of dots { u, v } in noise, as bytes; the seed gives noise and forms. */
+/** Bytes of a JPEG with dots at { u, v } in noise; noise and sizes of the dots come from the seed. */
 export async function drawn(page, { width, height, seed, dots }) {
   const text = await page.evaluate(
     async ([width, height, seed, dots, [a, b]]) => {
@@ -28,12 +28,12 @@ export async function drawn(page, { width, height, seed, dots }) {
       for (let at = 0; at < bytes.length; at += 32_768) text += String.fromCharCode(...bytes.subarray(at, at + 32_768));
       return btoa(text);
     },
-    [width, height, seed, dots, LEAST],
+    [width, height, seed, dots, SMALLEST],
   );
   return Buffer.from(text, 'base64');
 }
 
-/** The same photo with a comment of its own, so that it is not taken for another. */
+/** The same photo with `name` as a JPEG comment, so that its bytes differ and the page takes it for a new photo. */
 export function copied(photo, name) {
   const length = Buffer.alloc(2);
   length.writeUInt16BE(name.length + 2);

@@ -31,7 +31,7 @@ const { adjust, detect, drop, figure, go, idle, photos } = await import('../e2e/
 const C = 6000;
 /** Targets on uneven ground, mm. */
 const POINTS = Array.from({ length: 150 }, (_, k) => [170 * ((k % 15) - 7), 170 * (Math.floor(k / 15) - 4.5), 60 * ((7 * k) % 5)]);
-/** What is given: the four corners and three more. */
+/** The given points: the four corners and three more. */
 const CONTROL = [0, 14, 135, 149, 22, 67, 112];
 
 /** Where the targets are in one of the pictures: all around, looking down at the middle, each turned another way. */

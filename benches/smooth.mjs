@@ -25,7 +25,7 @@ const { adjust, detect, drop, go, idle, photos } = await import('../e2e/desk.mjs
 const folder = mkdtempSync(join(tmpdir(), 'sightline-smooth-'));
 const median = (all) => all.toSorted((a, b) => a - b)[Math.floor(all.length / 2)];
 
-/** What the page does meanwhile, and the tasks of its thread that took over 50 ms. */
+/** Runs an action on the page, and returns the tasks of its thread that took over 50 ms. */
 async function watched(page, name, work) {
   await page.evaluate(() => {
     window.tasks = [];

@@ -13,7 +13,7 @@ const steps = ['photos', 'targets', 'identities', 'control', 'adjust', 'results'
 const beside = ['report', 'object', 'plan', 'print', 'equipment', 'experiments'];
 const longer = { timeout: 900_000 };
 
-/** What axe-core finds of WCAG 2.2 AA, each as rule, target and words. */
+/** Violations of WCAG 2.2 AA found by axe-core: rule, target and description. */
 async function violations(page) {
   await page.evaluate(axe);
   return page.evaluate(async () => {
@@ -74,7 +74,7 @@ async function twoResults(page) {
   await page.waitForSelector('[data-result=sigma0]');
 }
 
-/** Opens what is folded, so that it is looked at too. */
+/** Opens what is folded, so that it is examined too. */
 const unfold = (page) => page.$$eval('details', (all) => all.forEach((one) => (one.open = true)));
 
 test('axe-core finds nothing on any step, in any theme', longer, async () => {
@@ -101,7 +101,7 @@ test('axe-core finds nothing on any step, in any theme', longer, async () => {
   }
 });
 
-/** What is there to be touched and is smaller than 44 px, by its words; a check box counts with its label. */
+/** Names of touch targets smaller than 44 px; a check box counts with its label. */
 const small = (page) =>
   page.evaluate(() => {
     const found = [];
@@ -114,6 +114,15 @@ const small = (page) =>
     return [...new Set(found)];
   });
 
+/** Headings and tabs whose words run over their neighbours or are broken letter by letter: they have less room than their longest word. */
+const squeezed = (page) =>
+  page.$$eval('.section-head > :first-child, .tabs button, h1, h2, h3', (all) =>
+    all.filter((e) => {
+      if (e.clientWidth < 2) return false;
+      const lines = e.clientHeight / parseFloat(getComputedStyle(e).fontSize);
+      return e.scrollWidth > e.clientWidth + 1 || (lines > 6 && e.clientWidth < 60);
+    }).map((e) => `squeezed "${e.textContent.trim().slice(0, 30)}"`));
+
 test('on a phone nothing is cut or covered, and everything can be hit with a finger', longer, async () => {
   const { page, errors, close } = await open({ width: 390, height: 844, hasTouch: true, isMobile: true });
   try {
@@ -125,7 +134,7 @@ test('on a phone nothing is cut or covered, and everything can be hit with a fin
       for (const step of steps) {
         await to(page, step);
         await unfold(page);
-        for (const line of await small(page)) found.push(`${language} ${step} ${line}`);
+        for (const line of [...(await small(page)), ...(await squeezed(page))]) found.push(`${language} ${step} ${line}`);
         // The words of the open step stand whole, and bar, buttons and page keep apart.
         const cut = await page.$$eval('.steps .now .label, .bar h1, .bar .button', (all) => all.filter((e) => e.clientWidth > 1 && e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent));
         assert.deepEqual(cut, [], `${language} ${step}`);
@@ -142,6 +151,7 @@ test('on a phone nothing is cut or covered, and everything can be hit with a fin
     await page.getByRole('button', { name: 'More' }).click();
     await page.getByRole('button', { name: 'Experiments' }).click();
     await page.waitForSelector('.experiment');
+    for (const line of await squeezed(page)) found.push(`experiments ${line}`);
     assert.deepEqual([...new Set(found)], []);
     assert.deepEqual(errors, []);
   } finally {

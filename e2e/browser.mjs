@@ -1,4 +1,4 @@
-// The page in a headless browser: `cargo xtask test page` serves what it has built and names its folder, its address and the browser.
+// Opens the page in a headless browser. `cargo xtask test page` builds and serves the page, and sets its folder, its address and the browser.
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -12,7 +12,7 @@ export const dist = process.env.SIGHTLINE_DIST || fileURLToPath(new URL('../dist
 const FLAGS = [
   '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--enable-unsafe-swiftshader',
-  // A name that browsers take for one of the network: no secure context over plain HTTP, as on a phone in a local network.
+  // A host name that is not local for the browser, so that plain HTTP is not a secure context, as on a phone in a local network.
   '--host-resolver-rules=MAP insecure.test 127.0.0.1',
 ];
 
@@ -20,9 +20,9 @@ const FLAGS = [
 export const plainHttp = () => process.env.SIGHTLINE_URL.replace(/127\.0\.0\.1|localhost/, 'insecure.test');
 
 /**
- * A fresh browser on the page: nothing is left of other tests. What the page logs as an error or throws is in `errors`.
- * `cores` is what the page is told of the processor, which decides how many workers it starts. Closing fails where the page has asked
- * for anything elsewhere, or done what its Content-Security-Policy forbids.
+ * Opens the page in a new browser profile. Errors that the page logs or throws are in `errors`. `cores` is the number of processors that
+ * the page sees, which decides how many workers it starts. Closing fails if the page has requested anything from another host, or has
+ * violated its Content-Security-Policy.
  */
 export async function open({ width = 1440, height = 900, cores, address, ...options } = {}) {
   const { SIGHTLINE_URL: served, CHROMIUM: program } = process.env;

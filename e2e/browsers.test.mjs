@@ -7,7 +7,7 @@ import { open } from './browser.mjs';
 import { sample } from './desk.mjs';
 import { firefox, webkit } from './others.mjs';
 
-/** What the sample's results say, as it is shown. */
+/** Results of the sample as they are shown. */
 const shown = () => {
   const text = (selector) => [...document.querySelectorAll(selector)].map((element) => element.textContent.trim());
   const rows = [...document.querySelectorAll('tr[data-camera]')].map((row) => [...row.cells].map((cell) => cell.textContent.trim()).join(' '));

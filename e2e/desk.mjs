@@ -112,6 +112,8 @@ export async function photos(page, paths) {
 export async function sample(page) {
   await page.click('.sample');
   await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 300_000 });
+  // Its parts are drawn one after the other.
+  await page.waitForSelector('.results[data-whole]');
 }
 
 /** Waits until no long work is under way. */
@@ -149,7 +151,7 @@ export async function parameter(page, camera, name) {
   return { value: number(cells[1]), sigma: number(cells[2]), unit: cells[3] };
 }
 
-/** What the page tells in its notice row. */
+/** Text of the notice row. */
 export const notice = (page) => page.textContent('.notice p');
 
 /** Files that a click hands over, by name: so many, or until the name of one has each of these words. */

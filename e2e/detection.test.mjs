@@ -27,7 +27,7 @@ async function saved(cores, photos, work) {
   }
 }
 
-/** What a project file holds of the targets: every number as the page has it. */
+/** The targets in a project file, with all digits. */
 const targets = (entries) => JSON.parse(entries['targets.json']);
 
 /** Compares what the page found in photos, by the names that it gave them, with what Node finds in the same bytes; how many targets. */

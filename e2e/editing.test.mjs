@@ -1,4 +1,4 @@
-// What can be typed can be changed, what is refused leaves its field, and what is told goes with its cause.
+// Editing: every typed value can be changed later, a refused value is removed from its field, and a message disappears with its cause.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 

@@ -174,7 +174,13 @@ test('a plan says what a second campaign will be able to show', longer, async ()
     assert.ok(table.every((cells) => cells.slice(0, 3).every((cell) => number(cell) <= number(cells[3]) * 1.01)));
     assert.match(await page.textContent('[data-second=words]'), /Reference points: all \d+ points\..*probability of at least 80 %/);
     await page.click('.tools .text-button[aria-label*="Language"]');
-    assert.match(await page.textContent('[data-second=words]'), /비교의 기준: 모든 점/);
+    assert.match(await page.textContent('[data-second=words]'), /참조점: 모든 점/);
+    // On paper every point, with the sentences in both languages.
+    await page.emulateMedia({ media: 'print' });
+    const printed = await page.$$eval('tr[data-printed-detectable]', (all) => all.filter((row) => row.checkVisibility()).map((row) => [...row.cells].slice(1).map((cell) => cell.textContent)));
+    assert.ok(printed.length >= table.length);
+    assert.deepEqual(printed.slice(0, table.length), table);
+    assert.match(await page.innerText('.shooting-plan'), /Reference points: all \d+ points\.[^]*참조점: 모든 점/);
     assert.deepEqual(errors, []);
   } finally {
     await close();

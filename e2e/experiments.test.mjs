@@ -69,6 +69,24 @@ test('every experiment runs beside the page, within ten seconds, with the figure
   }
 });
 
+test('an experiment that runs by itself gives way to what a person does', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.click('.experiments-entry');
+    await page.waitForSelector('.progress');
+    await page.click('.mark');
+    await page.waitForSelector('.progress', { state: 'detached', timeout: 1000 });
+    // Shown again it runs again, and photos that are dropped meanwhile are taken.
+    await page.click('.experiments-entry');
+    await page.waitForSelector('.progress');
+    await drop(page, [scratch('mine.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Mine' }))]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Mine');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
 test('inputs change the network and date the figures, a run can be cancelled, the project opens and adjusts', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
@@ -203,6 +221,36 @@ test('the pages speak Korean and fit a phone', longer, async () => {
     }
     await page.reload();
     await page.waitForSelector('.tabs [data-experiment=lee-structure][aria-current=page]');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('the network of an experiment is turned in space, and follows the choice', { timeout: 300_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.evaluate(() => (location.hash = '#experiments/kang'));
+    await page.waitForSelector('.outcome .keys', { timeout: 120_000 });
+    await page.click('[data-action=turn]');
+    const counts = () => page.evaluate(() => document.querySelector('.turned .space-host')?.view?.counts());
+    await page.waitForFunction(() => document.querySelector('.turned .space-host')?.view?.counts().points > 0, undefined, { timeout: 60_000 });
+    const drawn = await page.evaluate(() => ({ points: document.querySelectorAll('.network :is(.control-at, .check-at, .tie-at)').length / 2, photos: document.querySelectorAll('.network .camera').length / 2 }));
+    const { points, photos } = await counts();
+    assert.deepEqual({ points, photos }, drawn);
+    const place = () => page.evaluate(() => document.querySelector('.turned .space-host').view.place(0));
+    const before = await place();
+    await page.click('.turned [data-side=top]');
+    assert.notDeepEqual(await place(), before);
+    const box = await page.locator('.turned .space-host').boundingBox();
+    const top = await place();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 90, box.y + box.height / 2 - 60, { steps: 5 });
+    await page.mouse.up();
+    assert.notDeepEqual(await place(), top);
+    await page.click('[data-action=turn]');
+    assert.equal(await page.locator('.turned').count(), 0);
     assert.deepEqual(errors, []);
   } finally {
     await close();

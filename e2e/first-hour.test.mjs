@@ -338,7 +338,7 @@ test('results begin with a verdict, and a failed test says what is wrong with on
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await sample(page);
-    assert.match(await page.textContent('[data-verdict]'), /agree as well as their standard errors say/);
+    assert.match(await page.textContent('[data-verdict]'), /residuals agree with the standard errors/);
     // Standard errors that are too large.
     await go(page, 'adjust');
     await page.fill('[name=unmodelled]', '0.05');

@@ -1,4 +1,4 @@
-// What is given and could be taken for something else is asked: photos of one name, units of length, numbers and tables with two readings.
+// Ambiguous input is confirmed by the user: photos with equal names, units of length, numbers and tables with two interpretations.
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { test } from 'node:test';
@@ -10,7 +10,7 @@ import { downloads, drop, go, idle, notice, save, scratch, unzipped } from './de
 const longer = { timeout: 300_000 };
 const shots = process.env.SIGHTLINE_SHOTS;
 
-/** A grey picture as PNG; `seed` makes its contents. */
+/** A grey picture as PNG; different seeds give different contents. */
 function png(seed, width = 320, height = 240) {
   const chunk = (name, data) => {
     const body = Buffer.concat([Buffer.from(name, 'latin1'), data]);
@@ -31,7 +31,7 @@ function png(seed, width = 320, height = 240) {
 const sha256 = (bytes) => createHash('sha256').update(bytes).digest('hex');
 const [measured, other, third] = [png(1), png(2), png(5)];
 
-/** A project of two measured photos, with the contents of their files or without. */
+/** A project of two measured photos, with or without the digests of their files. */
 function project(digests = [sha256(measured), sha256(third)], unit = 'mm') {
   const photo = (k) => ({ id: String(k + 1), camera: 'k', file: ['DSC_0001.JPG', 'DSC_0002.JPG'][k], ...(digests[k] ? { sha256: digests[k] } : {}) });
   const observation = (photo, point, u) => ({ photo, point, u, v: 50, sigma: 0.1 });
@@ -54,7 +54,7 @@ async function opened(page, document) {
   await go(page, 'photos');
 }
 
-/** Pictures of what is seen in both languages and widths, where they are wanted. */
+/** Screenshots in both languages and two widths, if SIGHTLINE_SHOTS names a folder. */
 async function pictures(page, name) {
   if (!shots) return;
   for (const language of ['en', 'ko']) {
@@ -76,7 +76,7 @@ async function saved(page) {
   return JSON.parse(unzipped(Object.values(files)[0])['project.json']);
 }
 
-test('a file of another day with the name of a measured photo replaces nothing before it is answered', longer, async () => {
+test('a different file with the name of a measured photo replaces nothing until the user answers', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await opened(page, project());
@@ -89,7 +89,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
     assert.equal(await tiles(page), 2);
     assert.equal((await saved(page)).observations.length, 3);
 
-    // Not answered: nothing has happened, and it can be dropped again.
+    // Closed without an answer: nothing changes, and the file can be dropped again.
     await page.keyboard.press('Escape');
     assert.equal(await tiles(page), 2);
     await drop(page, [scratch('dsc_0001.jpg', other)]);
@@ -103,7 +103,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
     await page.keyboard.press('Control+z');
     assert.equal(await tiles(page), 2);
 
-    // Replaced: its measurements go with it, and undoing brings back the photo that waits for its own file.
+    // Replaced: its measurements are deleted; undo restores the photo with its measurements, without a file.
     await drop(page, [scratch('DSC_0001.JPG', png(9))]);
     await asked(page);
     await answer(page, 'Replace, delete measurements');
@@ -117,7 +117,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
     assert.deepEqual(now.photos.map((p) => p.sha256), [sha256(measured), sha256(third)]);
     assert.equal(now.observations.length, 3);
 
-    // Its own file is known whatever it is called, and only once.
+    // The measured file is recognised under any name; a second copy is refused.
     await drop(page, [scratch('renamed.jpeg', measured), scratch('DSC_0002.jpg', third)]);
     await idle(page);
     assert.equal(await page.locator('.asking').count(), 0);
@@ -133,7 +133,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
   }
 });
 
-test('measured photos whose contents are not recorded are asked about once', longer, async () => {
+test('one question covers all measured photos without a recorded digest', longer, async () => {
   const { page, errors, close } = await open({ width: 390, height: 844 });
   try {
     await opened(page, project([]));
@@ -152,7 +152,7 @@ test('measured photos whose contents are not recorded are asked about once', lon
   }
 });
 
-test('another unit is asked: converted, or in it all along; and what is no unit is refused', longer, async () => {
+test('a change of unit asks whether to convert; an unknown unit is refused', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   const unit = async (typed) => {
     await page.fill('[name=unit]', typed);
@@ -188,7 +188,7 @@ test('another unit is asked: converted, or in it all along; and what is no unit 
   }
 });
 
-test('a document in a unit of its own opens, says so and asks', longer, async () => {
+test('a document with an unknown unit opens with a warning and asks before the unit is changed', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await opened(page, project([], 'ell'));
@@ -209,7 +209,7 @@ test('a document in a unit of its own opens, says so and asks', longer, async ()
   }
 });
 
-test('numbers and tables with two readings are asked', longer, async () => {
+test('numbers and tables with two interpretations are asked about', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await opened(page, project());
@@ -224,7 +224,7 @@ test('numbers and tables with two readings are asked', longer, async () => {
     await length.press('Enter');
     assert.equal(await length.inputValue(), '1.5');
 
-    // A table: both are buttons, and nothing is taken before one is chosen.
+    // A table: each interpretation is a button, and import is disabled until one is chosen.
     const take = page.locator('.panel .button.primary', { hasText: /^Import/ }).first();
     await drop(page, [scratch('control.txt', 'P1\t1,234\t2,345\t3,456\nP2\t4,567\t5,678\t6,789\n')]);
     await page.waitForSelector('[data-asked=decimal]');
@@ -253,7 +253,7 @@ test('numbers and tables with two readings are asked', longer, async () => {
     const point = (await saved(page)).points.find((p) => p.id === 'M1');
     assert.deepEqual([point.xyz, point.sigma], [[1500, 2500, 3500], [2, 2, 2]]);
 
-    // Commas for both: every row says why it is refused.
+    // Commas as decimal and as field separators: each row shows why it is refused.
     await drop(page, [scratch('commas.csv', 'P1,1,234,2,345,3,456\nP2,4,567,5,678,6,789\n')]);
     await page.waitForSelector('.preview tr.wrong');
     assert.match(await page.textContent('.preview tr.wrong'), /may separate decimals or thousands too/);

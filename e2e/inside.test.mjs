@@ -19,18 +19,50 @@ test('the lab net is stepped to its end, an observation is explained, and the ma
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await inside(page);
-    assert.equal(await page.locator('[data-matrix] canvas').count(), 3);
+    assert.equal(await page.locator('[data-matrix] canvas').count(), 4);
+    // What the order of elimination does to the Cholesky factor.
+    const filled = async () => number((await page.textContent('[data-matrix=L] .aside')).split(',')[1]);
+    await page.waitForFunction(() => document.querySelector('[data-matrix=L] .aside').textContent !== '');
+    const [pointsFirst, said] = [await filled(), await page.textContent('[data-matrix=L] .aside')];
+    await page.click('[data-elimination=photos]');
+    await page.waitForFunction((before) => ![before, ''].includes(document.querySelector('[data-matrix=L] .aside').textContent), said);
+    assert.ok((await filled()) > pointsFirst, `${await filled()} ${pointsFirst}`);
+    await page.click('[data-elimination=points]');
     const sigma0 = async () => number(await page.textContent('.steps-taken li.now b'));
     const first = await sigma0();
     await page.click('[data-action=step]');
     await page.waitForSelector('li.now[data-step-number="1"]');
     assert.ok((await sigma0()) < first);
+    // Points and residuals move with the step: before the first one there is nothing to draw.
+    await page.click('[data-pane=movement]');
+    await page.waitForSelector('.plan[data-factor]');
+    const vectors = () => page.$eval('.plan .vectors', (path) => path.getAttribute('d'));
+    const residuals = () => page.$eval('[data-residuals="2"] .vectors', (path) => path.getAttribute('d'));
+    assert.equal(await page.locator('.plan [data-place]').count(), 19);
+    assert.equal(await page.locator('[data-residuals]').count(), 5);
+    const [moved, off] = [await vectors(), await residuals()];
+    assert.ok(moved.split('M').length > 19 && off.length > 0);
+    await page.click('[data-action=step-back]');
+    await page.waitForSelector('li.now[data-step-number="0"]');
+    assert.equal(await vectors(), '');
+    assert.notEqual(await residuals(), off);
+    await page.click('[data-step-number="1"] button');
+    assert.equal(await vectors(), moved);
+    await page.click('[data-pane=matrices]');
     await page.click('[data-action=run]');
     await page.waitForSelector('[data-ended]', { timeout: 60_000 });
     const last = await sigma0();
     assert.ok(last > 0.5 && last < 1.6, `sigma0 ${last}`);
     await page.click('[data-action=step-back]');
     assert.ok((await sigma0()) >= last * 0.999);
+
+    // Standard errors of the unknowns follow the step.
+    await page.waitForFunction(() => [...document.querySelectorAll('.unknowns [data-sigma]')].every((cell) => cell.textContent !== ''));
+    // Only the rows in sight are drawn: the last of 76 after scrolling.
+    assert.ok((await page.locator('.unknowns [data-sigma]').count()) < 76);
+    await page.$eval('.unknowns-frame', (frame) => (frame.scrollTop = frame.scrollHeight));
+    await page.waitForSelector('.unknowns [data-unknown="75"]');
+    assert.notEqual(await page.textContent('.unknowns [data-unknown="75"] [data-sigma]'), '');
 
     await page.fill('[name=observation]', '2 7 x');
     await page.keyboard.press('Enter');
@@ -66,6 +98,14 @@ test('three datums, a planted error and weights stand beside each other', { time
     assert.equal(await page.locator('[data-motion]').count(), 7);
     await page.click('[data-motion=rotation_z]');
     await page.waitForSelector('line.arrow');
+
+    // The S-transformation gives what the adjustment under the other datum gives; control adds observations.
+    for (const [pair, same] of [['minimal-free', 'true'], ['free-minimal', 'true'], ['control-free', 'false']]) {
+      await page.click(`[data-transform=${pair}]`);
+      await page.waitForSelector(`[data-transform=${pair}][aria-pressed=true]`);
+      await page.waitForSelector(`[data-same=${same}]`, { timeout: 60_000 });
+    }
+    assert.equal(await page.locator('[data-transformed]').count(), 14);
 
     await page.click('[data-inside=errors]');
     await page.waitForSelector('[data-said=planted]', { timeout: 60_000 });

@@ -1,4 +1,4 @@
-// Files that come in: what is in them decides where they go, and what cannot be used is told where it was dropped.
+// Dropped files: their content decides how they are imported, and files that cannot be used are reported where they were dropped.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -117,7 +117,7 @@ test('photos are on the page before they are read', { timeout: 120_000 }, async 
     const paths = Array.from({ length: 8 }, (_, k) => scratch(`early${k}.jpg`, withThumbnail(whole, small, k)));
     await photos(page, [...paths, scratch('again.jpg', withThumbnail(whole, small, 3)), scratch('letter.jpg', 'Dear Sir or Madam')]);
     assert.deepEqual(await page.evaluate(() => window.coming), { most: 9, step: '#photos', taken: 0 });
-    // What comes whole takes its place, and what is the same photo or none is told as ever.
+    // Each photo replaces its preview; a duplicate and a file that is no photo are reported as usual.
     assert.equal(await page.locator('.tile').count(), 8);
     assert.equal(await page.locator('.coming-tile').count(), 0);
     assert.equal(await page.locator('.problems li').count(), 2);

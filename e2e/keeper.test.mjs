@@ -267,7 +267,7 @@ for (const name of HOSTS) {
       }
       await end;
       assert.ok(lists > 10);
-      // What goes between the list and the look at it cannot be told from what was gone before: that was every sixth list once.
+      // What goes between the list and the look at it cannot be distinguished from what was deleted before: that was every sixth list once.
       assert.ok(failed * 10 < lists, `${failed} of ${lists} lists had a project that was gone`);
       console.log(`${name}: ${lists} lists, ${peeked} without a card, ${failed} gone when looked at`);
     } finally {

@@ -19,10 +19,21 @@ let state = Number(process.env.SIGHTLINE_SEED ?? 20_250_117);
 const random = () => (state = (state * 48_271) % 2_147_483_647) / 2_147_483_647;
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** What a killed page leaves undone is no fault of a test. */
+/** Ignores the requests that a killed page left unfinished. */
 const dying = (work) => work.catch((error) => assert.match(String(error), /closed|crash|detached|Target|Protocol/i));
 
-/** What would be undone next, once the history is read. */
+/** Waits at most so many ms for an answer of the browser: after a kill it may never come, which would look like a running test. */
+async function within(ms, what, work) {
+  let timer;
+  const late = new Promise((_, reject) => (timer = setTimeout(() => reject(new Error(`the browser did not ${what} within ${ms} ms of the kill`)), ms)));
+  try {
+    return await Promise.race([work, late]);
+  } finally {
+    clearTimeout(timer);
+  }
+}
+
+/** The change that would be undone next, once the history is read. */
 async function undone(page) {
   await page.waitForFunction(() => document.querySelector('.tools .icon-button')?.disabled === false);
   return page.locator('.tools .icon-button').first().getAttribute('aria-label');
@@ -74,7 +85,7 @@ const WORK = {
   },
 };
 
-/** What is watched, as the page that was opened again shows it; only what `like` has. */
+/** The compared values, as the reopened page shows them; only those in `like`. */
 async function shown(page, like) {
   const all = { name: await page.inputValue('.project-name') };
   if ('targets' in like) all.targets = await text(page, '[data-step=targets] .figure');
@@ -120,13 +131,13 @@ test(`killed ${KILLS} times, a project is there again each time`, limit, async (
       const killed = Date.now();
       assert.ok(killRenderers(profile) > 0);
       // A new page waits for ever where the browser has not heard of it.
-      await crashed;
+      await within(30_000, 'tell of the end of the page', crashed);
       ended[kind] += Number(seen.ended);
       const dead = page;
-      page = await context.newPage();
+      page = await within(30_000, 'open a new page', context.newPage());
       // It hears of its end at once when it is closed.
-      await dying(dead.close());
-      await work;
+      await within(30_000, 'close the page that ended', dying(dead.close()));
+      await within(30_000, 'end what was at work in the page', work);
       const back = Date.now();
       await page.goto(url);
       await page.click('[data-project]:not(:has-text("Other")) .do .button', { timeout: 30_000 });
@@ -183,14 +194,14 @@ class Expected {
     this.projects.set(id, { stored: -1, tried: 0, gone: false, unsure: true });
     return id;
   }
-  /** What is wrong with a list, with its deleted projects. */
+  /** Errors of a list and of its deleted projects. */
   wrong(names, deleted) {
     const wrong = [];
     const seen = new Map();
     for (const name of names) {
       const [, id, edit, copy] = parsedName(name) ?? [];
       if (id === undefined) wrong.push(`a project "${name}" that nobody made`);
-      // What a window that was passed over could not store is a project of its own, with the name of a copy.
+      // What a window that was skipped could not store is a project of its own, with the name of a copy.
       else if (!copy) seen.set(Number(id), Math.max(Number(edit), seen.get(Number(id)) ?? -1));
     }
     const hidden = new Set(deleted.map((name) => Number(parsedName(name)?.[1])));

@@ -4,8 +4,9 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
+import { downloads } from './desk.mjs';
 
-const folder = new URL('../src/teaching/lessons/', import.meta.url);
+const folder = new URL('../lab/src/teaching/lessons/', import.meta.url);
 const lessons = readdirSync(folder).map((name) => JSON.parse(readFileSync(new URL(name, folder), 'utf8')));
 
 /** Numbers of a text as they are shown: thin spaces, minus signs, powers of ten. */
@@ -117,8 +118,9 @@ for (const [language, width] of [['en', 1366], ['ko', 390]]) {
 test('progress is kept, a link carries it, and the lesson file of a third person opens', { timeout: 300_000 }, async () => {
   const { page, errors, close, url } = await open({ width: 1366, height: 768 });
   try {
+    // A link opens on a fresh page: of one that still starts, the start page's address would replace it.
+    await page.goto('about:blank');
     await page.goto(`${url}#inside/datum/2;0,1`);
-    await page.reload();
     await page.waitForSelector('.lesson .ask', { timeout: 60_000 });
     assert.match(await page.textContent('.lesson-head'), /3 of 5/);
     await page.click('[data-action=all-lessons]');
@@ -127,6 +129,18 @@ test('progress is kept, a link carries it, and the lesson file of a third person
       const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.click('[data-action=lesson-file]')]);
       await chooser.setFiles({ name: 'own.json', mimeType: 'application/json', buffer: Buffer.from(contents) });
     };
+    // Progress is saved to a file. Opening the file replaces the progress stored in the browser.
+    const saved = await downloads(page, 1, () => page.click('[data-action=lesson-progress]'));
+    const progress = JSON.parse(Buffer.from(saved['lesson-progress.json']).toString());
+    assert.deepEqual(progress.lessons, { datum: { step: 2, right: [0, 1] } });
+    progress.lessons = { datum: { step: 3, right: [0, 1, 2] }, weights: { step: 1, right: [0] } };
+    progress.open = 'datum';
+    await own(JSON.stringify(progress));
+    await page.waitForSelector('.lesson .ask');
+    assert.match(await page.textContent('.lesson-head'), /4 of 5/);
+    await page.click('[data-action=all-lessons]');
+    assert.match(await page.textContent('[data-lesson=datum]'), /3 of 5/);
+    assert.match(await page.textContent('[data-lesson=weights]'), /1 of 5/);
     await own('{"format": "other"}');
     await page.waitForSelector('.lesson .note.warn');
     const example = /```json\n(.*?)```/s.exec(readFileSync(new URL('../docs/lessons.md', import.meta.url), 'utf8'))[1];

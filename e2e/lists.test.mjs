@@ -39,7 +39,7 @@ async function saved(page) {
 /** Pictures in both languages and widths, where they are wanted; the page must not be wider than the window. */
 async function pictures(page, name) {
   for (const language of ['en', 'ko']) {
-    // Menus speak the language that was chosen while they stand there.
+    // Open menus change to the chosen language at once.
     const words = await page.$$eval('[name=list-role] option, [data-column] option', (all) => all.map((option) => option.textContent).join(' '));
     (language === 'ko' ? assert.match : assert.doesNotMatch)(words, /[가-힣]/);
     for (const width of [390, 1366]) {
@@ -136,7 +136,7 @@ test('what nothing decides is asked, and lists of instruments are known by what 
       assert.match((await page.textContent('.preview tr.new')).replaceAll(' ', ''), /1\.00002\.00003\.0000/);
       await page.getByRole('button', { name: 'Discard' }).click();
     }
-    // A Western code page, told as assumed; another one can be chosen.
+    // A Western code page, reported as assumed; another one can be chosen.
     await drop(page, [scratch('west.csv', Buffer.from('Punkt;Rechtswert;Hochwert;H\xf6he\nS\xfcd;1,5;2,5;3,5\n', 'latin1'))]);
     await sheet(page);
     assert.match(await understood(page), /Windows-1252 assumed/);
@@ -145,11 +145,48 @@ test('what nothing decides is asked, and lists of instruments are known by what 
     await page.selectOption('[name=pasted-unit]', 'm');
     await take(page).click();
     assert.equal((await saved(page)).points.find(({ id }) => id === 'Süd').role, 'tie');
-    // Latitude and longitude are refused: they are not plane coordinates.
-    await drop(page, [scratch('gps.csv', 'id,latitude,longitude,height\n1,37.5,127.1,30\n')]);
-    await page.waitForSelector('.preview tr.wrong');
-    assert.match(await page.textContent('.preview tr.wrong'), /plane system/);
-    await page.getByRole('button', { name: 'Discard' }).click();
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('latitudes and longitudes become local coordinates, at one origin for all lists of a project', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await opened(page);
+    await go(page, 'photos');
+    const rows = `1,37°30'12.5",127°02'03.4",30.5\n2,37°30'14.25",127°02'01.0",31.25\n3,37°30'11.0",127°02'05.9",32\n4,37.503,127°02'05.9",32\n`;
+    await drop(page, [scratch('gnss.csv', `id,latitude,longitude,height\n${rows}`)]);
+    await sheet(page);
+    // Nothing is silent: ellipsoid, origin, kind of system, heights.
+    const said = await understood(page);
+    for (const part of [/degrees, minutes and seconds/, /WGS84 \(GRS80\)/, /latitude 37\.5035°, longitude 127\.0343°, height 31 m/, /not a map projection/, /ellipsoidal heights/, /mean of the list/]) assert.match(said, part);
+    assert.equal(await page.inputValue('[name=pasted-unit]'), 'm');
+    assert.equal(await page.getAttribute('[data-rejected]', 'data-rejected'), '1');
+    assert.match(await page.textContent('.rejected-lines'), /another form/);
+    await take(page).click();
+    await page.waitForFunction(() => location.hash === '#control');
+    const first = await saved(page);
+    const system = { ellipsoid: 'WGS84', latitude: 37.5035, longitude: 127.0343, height: 31 };
+    assert.deepEqual([first.origin.format, first.origin.files, first.origin.local_system], ['control-csv', ['gnss.csv'], system]);
+    // PROJ 9.5: cart, topocentric; in the unit of the project.
+    const wanted = [-1.96492826, -3.082989623, -0.500001049];
+    const scale = { m: 1, mm: 1000 }[first.unit];
+    const { xyz } = first.points.find(({ id }) => id === '1');
+    assert.ok(xyz.every((value, k) => Math.abs(value / scale - wanted[k]) < 1e-7), `${xyz} ${first.unit}`);
+    await go(page, 'photos');
+    assert.match(await page.textContent('[data-assumed=LocalSystem]'), /37\.5035°/);
+    // The next list has the same origin, though its mean is elsewhere.
+    await drop(page, [scratch('more.csv', 'id,lat,lon,h\n9,37.6,127.1,30\n')]);
+    await sheet(page);
+    assert.match(await understood(page), /decimal degrees.*latitude 37\.5035°.*that of the project/);
+    assert.equal(await page.$('[data-system]'), null);
+    await take(page).click();
+    await page.waitForFunction(() => location.hash === '#control');
+    const second = await saved(page);
+    assert.deepEqual([second.origin.files, second.origin.local_system], [['gnss.csv', 'more.csv'], system]);
+    assert.ok(second.points.find(({ id }) => id === '9').xyz[1] / scale > 10_000);
     assert.deepEqual(errors, []);
   } finally {
     await close();
@@ -199,9 +236,41 @@ test('a project that names the north first shows, takes and writes N, E, H', lon
     assert.deepEqual([first.axes, point.xyz, point.sigma], ['neh', [3000.5, 5000.75, 31.125], [null, 0.002, null]]);
     // A list of distances, dropped: one end is not there.
     await drop(page, [scratch('bars.csv', 'from,to,length [mm],sigma [mm]\nP1,P2,2272,0.5\nP1,Q,100,0.5\n')]);
-    await page.waitForFunction(() => /1 distance taken/.test(document.body.textContent));
+    const bars = '.import[data-distances]';
+    await page.waitForSelector(bars);
+    assert.deepEqual(await page.$$eval(`${bars} .preview tbody tr`, (all) => all.map((row) => row.lastElementChild.textContent.trim())), ['new', 'not imported: the project has no point Q']);
+    await page.click(`${bars} .button.primary`);
+    await page.waitForFunction(() => /1 distance imported.*Distances to Q were not imported/.test(document.body.textContent));
     const { distances } = await saved(page);
     assert.ok(Math.abs(distances[0].length - 2.272) < 1e-12 && distances.length === 1);
+    // Without a heading, with thousands or thousandths and no standard errors: each is asked, and nothing is lost meanwhile.
+    await go(page, 'photos');
+    await drop(page, [scratch('tape.txt', 'P1;P2;2,273\n')]);
+    await page.waitForSelector(`.import-over ${bars}`);
+    assert.match(await page.textContent(bars), /from, to, length, standard error/);
+    assert.ok(await page.isDisabled(`${bars} .button.primary`));
+    await page.click(`${bars} [data-asked=decimal] button >> nth=0`);
+    assert.match(await page.textContent(`${bars} [data-asked=sigma]`), /1 length has no standard error/);
+    assert.match(await page.textContent(`${bars} [data-assumed=unit]`), /m, the unit of the project, is assumed/);
+    await page.fill('[name=distances-sigma]', '1 mm + 100 ppm');
+    await page.press('[name=distances-sigma]', 'Enter');
+    await page.waitForFunction((bars) => /replaces 2\.272/.test(document.querySelector(bars).textContent), bars);
+    assert.equal(await page.inputValue('[name=distances-unit]'), 'm');
+    await page.click(`${bars} .button.primary`);
+    await page.waitForFunction(() => location.hash === '#control' && /1 earlier distance replaced/.test(document.body.textContent));
+    const again = (await saved(page)).distances;
+    assert.equal(again.length, 1);
+    assert.ok(Math.abs(again[0].length - 2.273) < 1e-12 && Math.abs(again[0].sigma - 0.0012273) < 1e-12);
+    // Two lists of one drop are shown one after the other; the first is discarded.
+    const one = (length) => `from,to,length [mm],sigma [mm]\nP1,P2,${length},0.5\n`;
+    await drop(page, [scratch('first.csv', one(2280)), scratch('second.csv', one(2290))]);
+    await page.waitForFunction((bars) => /first\.csv/.test(document.querySelector(bars)?.textContent), bars);
+    await page.waitForFunction(() => /Shown when this list is imported or discarded: second\.csv/.test(document.body.textContent));
+    await page.click(`${bars} button.link`);
+    await page.waitForFunction((bars) => /second\.csv/.test(document.querySelector(bars)?.textContent), bars);
+    await page.click(`${bars} .button.primary`);
+    await page.waitForFunction(() => /second\.csv: 1 distance imported/.test(document.body.textContent));
+    assert.ok(Math.abs((await saved(page)).distances[0].length - 2.29) < 1e-12);
     assert.deepEqual(errors, []);
   } finally {
     await close();

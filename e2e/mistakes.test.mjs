@@ -91,7 +91,7 @@ for (const [name, mistake, said] of mistakes) {
         assert.match(await shown(page, '.notice'), said, 'the error');
         return;
       }
-      if (/^(?!a wrong name|a photo)/.test(name)) assert.doesNotMatch(await shown(page, '[data-verdict]'), /agree as well|standard errors were estimated/i);
+      if (/^(?!a wrong name|a photo)/.test(name)) assert.doesNotMatch(await shown(page, '[data-verdict]'), /residuals agree with|standard errors were estimated/i);
       assert.match(await shown(page, '.contradictions li, [data-result=not-used]'), said, 'beside sigma0');
       if (shots) await page.screenshot({ path: `${shots}/${name.replaceAll(' ', '-')}-results.png` });
       await go(page, 'report');

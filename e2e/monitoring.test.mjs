@@ -96,7 +96,7 @@ test('the sample with three epochs opens in one click; its verdict, tests, point
     await page.click('.tools .text-button[aria-label*="Language"]');
     assert.match(await page.textContent('[data-found=velocity]'), /점 D23의 속도/);
     await page.click('[data-shown=displacements]');
-    assert.match(await verdict(page), /^대상점 24점 중 \d점이 움직였고, 기준점 1점\(R5\)이 불안정/);
+    assert.match(await verdict(page), /^대상점 24점 중 \d점이 움직였고, 참조점 1점\(R5\)이 불안정/);
     // The report, in the language of the page.
     const report = async (wanted) => {
       await page.waitForFunction((text) => document.querySelector('.paper')?.shadowRoot?.textContent.includes(text), wanted, { timeout: 30_000 });
@@ -107,6 +107,17 @@ test('the sample with three epochs opens in one click; its verdict, tests, point
     assert.deepEqual(sections, ['epochs-verdict', 'epochs', 'epochs-tests', 'epochs-stable', 'epochs-displacements', 'epochs-series', 'epochs-settings']);
     await page.click('.tools .text-button[aria-label*="언어"]');
     assert.deepEqual(await report('Deformation report'), sections);
+    // With the camera shared by all epochs: one adjustment of all, which the report names with its test.
+    await page.click('[data-shown=setup]');
+    await page.selectOption('select[name=method]', { label: 'joint, stable points in common' });
+    const cameras = page.locator('[data-field=shared-cameras] button');
+    const camera = await cameras.first().textContent();
+    await cameras.first().click();
+    assert.equal(await cameras.first().getAttribute('aria-pressed'), 'true');
+    await compare(page);
+    assert.match(await verdict(page), /moved/);
+    await page.click('[data-shown=report]');
+    await report(camera);
     assert.deepEqual(errors, []);
   } finally {
     await close();

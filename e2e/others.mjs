@@ -49,7 +49,7 @@ function started(program, options, environment = {}) {
   return { folder, end };
 }
 
-/** What a page is to its driver: `run` calls a function there with arguments that JSON can carry, and waits for what it promises. */
+/** Interface of a page for its driver: `run` calls a function there with JSON arguments and waits for its promise. */
 function page(command, end) {
   const run = async (work, ...given) => {
     const script = `const [given, done] = arguments; Promise.resolve((${work})(...given)).then((value) => done({ value }), (error) => done({ error: String(error) }));`;

@@ -16,7 +16,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await photos(page, files(folder, '.tif'));
-    // Two cameras, told apart by their file names.
+    // Two cameras, distinguished by their file names.
     assert.equal(await page.locator('.side [data-field=c]').count(), 2);
     await detect(page, { polarity: 'bright on dark', codes: 'Schneider / AICON 14 bit' });
 
@@ -60,7 +60,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
       }
     }
 
-    // Lengths of the other program's points, far apart, that take no part: errors within what eight photos promise, and told with the limit.
+    // Lengths of the other program's points, far apart, that are not used: errors within what eight photos promise, and told with the limit.
     await go(page, 'control');
     const pairs = [['1', '70'], ['10', '61'], ['5', '66'], ['2', '69'], ['9', '62']].filter((pair) => pair.every((id) => coded.some((p) => p.id === id)));
     assert.ok(pairs.length >= 3, JSON.stringify(pairs));

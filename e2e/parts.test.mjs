@@ -1,4 +1,4 @@
-// The page's module in parts: what comes first is small and stands without the rest, and a part that does not come is told.
+// The page's module in parts: what comes first is small and stands without the rest, and a part that cannot be loaded is reported.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';

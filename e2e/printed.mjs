@@ -21,7 +21,7 @@ const SIZES = { a4: [595, 842], letter: [612, 792] };
 /** Text as it can be compared: without what only sets it apart. */
 export const plain = (text) => text.replaceAll(/\s+/g, '');
 
-/** What lies on the pages: their sizes, and the box of each word. */
+/** Sizes of the pages, and the box of each word. */
 function boxes(file) {
   const html = execFileSync('pdftotext', ['-bbox', file, '-'], { encoding: 'utf8', maxBuffer: 1 << 28 });
   return html.split('<page ').slice(1).map((page) => {

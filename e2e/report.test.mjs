@@ -17,7 +17,7 @@ test('the sample prints whole in both languages and sizes', { skip: unreadable, 
   try {
     await sample(page);
     const rows = () => page.waitForSelector('.results .c1 tr.data').then(() => page.$$eval('.results .c1 tbody tr.data', (all) => all.map((row) => [...row.cells].slice(0, 8).map((cell) => cell.textContent))));
-    // A known length that takes no part: .03 beside what was measured.
+    // A known length that is not used: .03 beside what was measured.
     const [[from, , ...start], [to, , ...end]] = (await rows()).map((row) => row.slice(0, 5));
     const length = Math.hypot(...start.map((x, k) => number(x) - number(end[k]))) + 0.03;
     await go(page, 'control');

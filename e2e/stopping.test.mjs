@@ -66,14 +66,14 @@ async function cancel(page, kind) {
 /** Stops what is done by the way and lasts: what was asked last stands first, and is stopped on the way. */
 async function cancelLasting(page, kind) {
   for (let tries = 0; tries < 5; tries++) {
-    await page.click('.lasting .button', { trial: true });
-    // In one go: what stands there may be another thing a moment later.
+    await page.click('.background-task .button', { trial: true });
+    // In one step: the element there may change a moment later.
     const stopped = await page.evaluate(() => {
-      const row = document.querySelector('.lasting');
+      const row = document.querySelector('.background-task');
       row?.querySelector('button').click();
       return row?.querySelector('p').textContent;
     });
-    await page.waitForFunction((words) => document.querySelector('.lasting p')?.textContent !== words, stopped);
+    await page.waitForFunction((words) => document.querySelector('.background-task p')?.textContent !== words, stopped);
     if (stopped === kind) return;
   }
   assert.fail(`${kind} is not told of`);

@@ -31,7 +31,7 @@ async function openWith(prelude) {
   return opened;
 }
 
-/** What the storage holds of journals, by the page's own means: bytes and generations. */
+/** Journals in the storage, read by the functions of the page: bytes and generations. */
 const journals = (page) =>
   page.evaluate(async () => {
     const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline');
@@ -104,7 +104,7 @@ test('a full disk is told, the file is the way out, and what waited is written w
       told = await page.evaluate(() => /storage of this computer is full/.test(document.querySelector('.notices')?.textContent ?? ''));
     }
     assert.ok(told, 'the full storage was not told');
-    await storageLine(page, 'full.*Save the project');
+    await storageLine(page, 'full.*Download the project file');
     await rename(page, 'The last name');
     // Everything is in the file.
     const files = await downloads(page, 1, () => save(page));
@@ -142,8 +142,8 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     // Photos and what is written beside them come in any order; browsers give files their room by the megabyte. Now there is enough for the
     // document, and not for all that is missing of the photos.
     await room(2_500_000);
-    // It stands there for as long as it is so, whatever else is told.
-    await storageLine(page, '\\d photos? (is|are) not copied .*\\(storage full\\).*saved with photos');
+    // The message stays as long as its cause exists, whatever else is reported.
+    await storageLine(page, '\\d photos? (is|are) not copied .*\\(storage full\\).*download it with photos');
     await page.waitForFunction(() => /saved \S+( [AP]M)?, without \d photos?/.test(document.querySelector('.project span')?.textContent));
     // What cannot be written is tried every few seconds, and takes no more room for that.
     await room(0);
@@ -185,7 +185,7 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
   test(`storage that is cleared under the page (${kind}) is told, and nothing is lost`, { timeout: 600_000 }, async () => {
     const { page, context, url, close } = await openWith(prelude);
     try {
-      // Photos of one's own: their files are at hand still.
+      // Photos of one's own: their files are still available.
       await sample(page);
       const files = await downloads(page, 1, () => save(page));
       await page.click('.mark');
@@ -235,7 +235,7 @@ test('storage cleared under two windows is stored again by both, whichever is cl
     }
     const session = await context.newCDPSession(first);
     await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'all' });
-    // The first one notices; the other is told, and nothing was done in it.
+    // The first one notices; the other one is informed and was not used.
     await first.bringToFront();
     await rename(first, 'One after');
     for (const page of [first, second]) {
@@ -412,7 +412,7 @@ test('a copy whose card could not be written is listed by its own name', { timeo
   }
 });
 
-/** What is done to the journal, and what has to be told. */
+/** Changes of the journal, and the report about them. */
 const harms = [['bit', /repaired; no data are lost/], ['length', /repaired; no data are lost/], ['sector', /was damaged/], ['first', null], ['tail', null]];
 for (const [kind, address] of [['files', () => undefined], ['database', plainHttp]]) {
   test(`a damaged journal (${kind}) is mended or told, what can be read of it is open, and the damaged one can be downloaded`, { timeout: 600_000 }, async () => {

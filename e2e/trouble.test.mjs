@@ -182,7 +182,7 @@ test('on a phone every step is in reach and nothing lies over it', { timeout: 30
   }
 });
 
-// It ends where it would have answered, as a worker does that the system takes the memory from; or it says what is no answer.
+// It ends where it would have answered, as a worker does that the system takes the memory from; or it sends an invalid answer.
 for (const [instead, told] of [['self.close()', /ended without a word/], ['post({})', /said what is no answer/]]) {
   test(`a worker's end without an answer is noticed, its task tried once more, then told: ${instead}`, { timeout: 300_000 }, async () => {
     const { page, context, close } = await open({ cores: 1, serviceWorkers: 'block' });
@@ -196,7 +196,7 @@ for (const [instead, told] of [['self.close()', /ended without a word/], ['post(
       await page.click('[data-action=detect]');
       await idle(page, 30_000);
       assert.equal(await page.locator('.notice').count(), 0);
-      // Every worker that comes does so now: that is told, and the page goes on.
+      // Every worker that comes does so now: that is reported, and the page goes on.
       await context.route('**/worker.js', async (route) => {
         const response = await route.fetch();
         await route.fulfill({ response, body: `${dying}\n${await response.text()}` });

@@ -5,7 +5,7 @@ use std::error::Error;
 
 use sightline::adjust::adjust;
 use sightline::adjustment::AdjustOptions;
-use sightline::exchange;
+use sightline_exchange as exchange;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

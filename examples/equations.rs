@@ -5,7 +5,7 @@ use std::path::Path;
 
 use sightline::adjustment::AdjustOptions;
 use sightline::project::{Datum, DatumKind, Project};
-use sightline::teaching::{files, lab, moved};
+use sightline_lab::teaching::{files, lab, moved};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -18,10 +18,10 @@ use sightline::adjust::adjust;
 use sightline::adjustment::AdjustOptions;
 use sightline::calibration::{UncertaintyOptions, projection_uncertainty};
 use sightline::camera::pixel_from_camera_point;
-use sightline::exchange::foreign::CameraOptions;
-use sightline::exchange::{self, Choices, Files, cameras};
 use sightline::project::{Camera, Project};
 use sightline::rotation::object_to_camera;
+use sightline_exchange::foreign::CameraOptions;
+use sightline_exchange::{self as exchange, Choices, Files, cameras};
 
 type Outcome<T = ()> = Result<T, Box<dyn Error>>;
 

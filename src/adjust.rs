@@ -3,7 +3,7 @@
 //! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
 //! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
 //! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights),
-//! `variance_components`, `patterns` (systematic residuals), `report`, `outside` (what took no part) and `inside` (equations and iterations laid open).
+//! `variance_components`, `patterns` (systematic residuals), `report`, `outside` (items that were not used) and `inside` (equations and iterations laid open).
 
 mod datum;
 mod diagnosis;
@@ -33,17 +33,19 @@ use crate::project::{Datum, DatumKind, Parameter, Project, Role};
 
 use diagnosis::judgement::judgement;
 use diagnosis::{advice, questions, structure};
-use outside::control::{Comparison, Findings};
-pub(crate) use outside::double_points::{Candidate, pairs as pairs_of_one};
-use problem::additional::{Key, LeftOut};
+use outside::control::{ControlDiscrepancy, Findings};
+pub(crate) use outside::double_points::{DoublePointCandidate, pairs as pairs_of_one};
+use problem::left_out::{Key, RejectedObservations};
 use problem::network::Network;
-pub(crate) use problem::numbering::Numbering;
+pub use problem::numbering::Numbering;
 use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
 use solve::session::{Log, RobustVariance, Session};
 
+pub use inside::cholesky::{Elimination, Factor};
 pub use inside::linear_system::{Equation, LinearSystem, Unknown, UnknownKind, linearise};
 pub use inside::normal_equations::{Block, BlockKind, FillIn, Motion, NormalEquations, Reduced, normal_equations};
+pub use inside::s_transformation::s_transformed;
 pub use inside::sparse::{SparseMatrix, npy};
 pub use inside::stepping::{Adjuster, StepState, at_end, start_adjustment};
 pub use problem::unmodelled::estimate as unmodelled;
@@ -56,7 +58,7 @@ const SAME_FACTOR: f64 = 1e-3;
 ///
 /// # Errors
 /// Whatever [`Project::validate`] finds; [`crate::Error::Empty`] without observations;
-/// [`crate::Error::MissingInitialValues`]; [`crate::Error::RankDefect`] when the network does not determine what is to be
+/// [`crate::Error::MissingInitialValues`]; [`crate::Error::RankDefect`] if the network does not determine what is to be
 /// estimated, or when all photos were taken from one place. An iteration that does not converge is a result.
 pub fn adjust(
     project: &Project,
@@ -76,7 +78,7 @@ pub fn adjust(
     let ready = outside::retest::with_what_fits(ready, &numbering, options, &mut record);
     let project = ready.as_ref();
     outside::control::enough(project, &numbering)?;
-    let mut left_out = LeftOut::nothing(project);
+    let mut left_out = RejectedObservations::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut settled = true;
     let starts = far_points::control_starts(project, &numbering);
@@ -127,7 +129,11 @@ pub fn adjust(
             session.start_at(&starts);
             session.suspects(options, &mut quiet)
         });
-        adjustment.advice.extend(gross_errors::search::told(project, &session.network, &suspects.unwrap_or_default()));
+        adjustment.advice.extend(gross_errors::search::suspicion(
+            project,
+            &session.network,
+            &suspects.unwrap_or_default(),
+        ));
     }
     if !settled {
         adjustment.advice.push(Advice::GrossErrorsUnsettled);
@@ -171,8 +177,13 @@ fn named_pattern(adjustment: &Adjustment) -> Option<Advice> {
     Some(patterns::advice(pattern, &adjusted.camera, &estimated))
 }
 
-/// Lists what took no part, with its size, and compares control with the photos where anything speaks against it.
-fn tell_of_what_is_outside(document: &Project, session: &Session, left_out: &LeftOut, adjustment: &mut Adjustment) {
+/// Lists items that were not used, with its size, and compares control with the photos where anything contradicts it.
+fn tell_of_what_is_outside(
+    document: &Project,
+    session: &Session,
+    left_out: &RejectedObservations,
+    adjustment: &mut Adjustment,
+) {
     let options = adjustment.options.clone();
     let settled = adjustment.termination == Termination::Converged;
     let stated = settled && options.statistics != StatisticsChoice::None;
@@ -207,7 +218,7 @@ fn tell_of_what_is_outside(document: &Project, session: &Session, left_out: &Lef
     }
 }
 
-/// What is wrong with control: exchanged pairs, then points by themselves, the largest first.
+/// Errors of control: exchanged pairs, then single points, the largest first.
 fn advice_on_control(document: &Project, found: &Findings) -> Vec<Advice> {
     let (exchanged, wrong) = control_faults(document, found);
     let exchanged = exchanged.into_iter().map(|points| Advice::ExchangedPoints { points });
@@ -221,9 +232,9 @@ pub(crate) type ControlFault = (String, [f64; 3], f64);
 
 fn control_faults(document: &Project, found: &Findings) -> (Vec<[String; 2]>, Vec<ControlFault>) {
     let id = |k: usize| document.points[k].id.clone();
-    let mut wrong: Vec<&Comparison> = found.compared.iter().filter(|c| c.wrong).collect();
+    let mut wrong: Vec<&ControlDiscrepancy> = found.compared.iter().filter(|c| c.wrong).collect();
     wrong.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
-    let exchanged = |c: &&&Comparison| !found.exchanged.iter().any(|pair| pair.contains(&c.point));
+    let exchanged = |c: &&&ControlDiscrepancy| !found.exchanged.iter().any(|pair| pair.contains(&c.point));
     (
         found.exchanged.iter().map(|pair| pair.map(id)).collect(),
         wrong.iter().filter(exchanged).map(|c| (id(c.point), c.difference, c.ratio)).collect(),
@@ -246,14 +257,15 @@ fn double_points(document: &Project, adjustment: &Adjustment) -> Vec<(String, St
     for (o, _) in document.observations.iter().zip(&adjustment.observations).filter(|(_, adjusted)| adjusted.enabled) {
         places.entry(&o.point).or_default().push((photos[o.photo.as_str()], [o.u, o.v]));
     }
-    let candidate = |point: &AdjustedPoint| -> Option<(String, Candidate)> {
+    let candidate = |point: &AdjustedPoint| -> Option<(String, DoublePointCandidate)> {
         let [xx, xy, xz, yy, yz, zz] = point.covariance?;
         let mut places = places.get(point.id.as_str()).cloned().unwrap_or_default();
         places.sort_unstable_by_key(|place| place.0);
         let covariance = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-        Some((point.id.clone(), Candidate { xyz: point.xyz.into(), covariance, places }))
+        Some((point.id.clone(), DoublePointCandidate { xyz: point.xyz.into(), covariance, places }))
     };
-    let (ids, candidates): (Vec<String>, Vec<Candidate>) = adjustment.points.iter().filter_map(candidate).unzip();
+    let (ids, candidates): (Vec<String>, Vec<DoublePointCandidate>) =
+        adjustment.points.iter().filter_map(candidate).unzip();
     let pairs = pairs_of_one(&candidates).into_iter();
     pairs.map(|[a, b]| (ids[a].clone(), ids[b].clone())).collect()
 }
@@ -289,7 +301,7 @@ pub(crate) fn ending(project: &Project, options: &AdjustOptions) -> Result<(Term
     let numbering = Numbering::of(project);
     let ready = far_points::brought_back(sized, &numbering);
     let project = ready.as_ref();
-    let mut session = Session::new(project, &numbering, &LeftOut::nothing(project))?;
+    let mut session = Session::new(project, &numbering, &RejectedObservations::nothing(project))?;
     session.start_at(&far_points::control_starts(project, &numbering));
     let termination = session.iterate(options, &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true })?;
     Ok((termination, solve::values::applied(&session)))
@@ -297,7 +309,7 @@ pub(crate) fn ending(project: &Project, options: &AdjustOptions) -> Result<(Term
 
 /// The values alone of a sound document without circular targets, for orientations that adjust on their way: no
 /// statistics, no advice, no search for what is wrong. It is read by its numbering and needs no names. Ends at steps shorter
-/// than `negligible` standard errors. None where the document cannot be adjusted, its equations are singular, or nothing
+/// than `negligible` standard errors. `None` if the document cannot be adjusted, its equations are singular, or nothing
 /// converges.
 pub(crate) fn values(
     project: &Project,
@@ -307,14 +319,14 @@ pub(crate) fn values(
 ) -> Option<Project> {
     let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project), numbering);
     let project = ready.as_ref();
-    let mut session = Session::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    let mut session = Session::new(project, numbering, &RejectedObservations::nothing(project)).ok()?;
     session.start_at(&far_points::control_starts(project, numbering));
     let (termination, singular) = session.steps(ResidualPlace::Corrected, max_iterations, negligible, &mut |_| true);
     (!singular && termination != Termination::Diverged).then(|| solve::values::applied(&session))
 }
 
 /// Standard errors of the estimated parameters of every camera of a sound document without circular targets, read by its
-/// numbering; of the first photo where each has an interior orientation of its own. None where nothing converges.
+/// numbering; of the first photo where each has an interior orientation of its own. `None` if nothing converges.
 pub(crate) fn camera_sigmas(project: &Project, numbering: &Numbering) -> Option<Vec<BTreeMap<Parameter, f64>>> {
     let options = AdjustOptions {
         statistics: StatisticsChoice::Precision,
@@ -323,7 +335,7 @@ pub(crate) fn camera_sigmas(project: &Project, numbering: &Numbering) -> Option<
     };
     let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project), numbering);
     let project = ready.as_ref();
-    let mut session = Session::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    let mut session = Session::new(project, numbering, &RejectedObservations::nothing(project)).ok()?;
     session.start_at(&far_points::control_starts(project, numbering));
     let log = &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true };
     if session.iterate(&options, log).ok()? != Termination::Converged {
@@ -338,7 +350,7 @@ pub(crate) fn camera_sigmas(project: &Project, numbering: &Numbering) -> Option<
     Some(sigmas)
 }
 
-/// What an adjustment of the project would say of its precision, with its coordinates as they stand and a priori standard errors
+/// Predicted precision of an adjustment of the project, with its present coordinates and a priori standard errors
 /// that are right: the normal equations of [`adjust`] at the initial values, and the cofactors of their inverse times a variance
 /// factor of 1. Image coordinates are not looked at further: those of a plan are projections.
 ///
@@ -353,9 +365,9 @@ pub fn predict(project: &Project) -> Result<Adjustment> {
 ///
 /// # Errors
 /// As [`adjust`].
-pub(crate) fn predict_numbered(project: &Project, numbering: &Numbering) -> Result<Adjustment> {
+pub fn predict_numbered(project: &Project, numbering: &Numbering) -> Result<Adjustment> {
     let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
-    let mut session = Session::new(project, numbering, &LeftOut::nothing(project))?;
+    let mut session = Session::new(project, numbering, &RejectedObservations::nothing(project))?;
     session.robust = Some(RobustVariance { sigma0: 1.0, variance: 1.0 });
     let solution = session.finish(&options, false)?;
     let mut adjustment = Solved::new(&session, &options, &solution).adjustment();
@@ -366,10 +378,10 @@ pub(crate) fn predict_numbered(project: &Project, numbering: &Numbering) -> Resu
 
 /// Covariance of a camera's estimated parameters, in the order of its correlations, and of the mean turn and shift of its photos: see
 /// `src/adjust/solve/session/calibration.rs`. The equations are those of the document at the adjustment's values, without the observations
-/// that took no part in it; they are scaled to its standard errors.
+/// that was not used in it; they are scaled to its standard errors.
 ///
 /// # Errors
-/// [`Error::Invalid`] where they do not give the adjustment's standard errors; as [`adjust`].
+/// [`Error::Invalid`] if they do not give the adjustment's standard errors; as [`adjust`].
 pub(crate) fn calibration(
     project: &Project,
     adjustment: &Adjustment,
@@ -409,9 +421,9 @@ pub(crate) fn calibration(
 }
 
 /// The groups that [`Defect::NotTied`] of a prediction has by the names of their photos, by their places in the document.
-pub(crate) fn groups_of(defect: &Defect, project: &Project, numbering: &Numbering) -> Option<Vec<Vec<usize>>> {
+pub fn groups_of(defect: &Defect, project: &Project, numbering: &Numbering) -> Option<Vec<Vec<usize>>> {
     let Defect::NotTied { groups } = defect else { return None };
-    let (network, _) = Network::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    let (network, _) = Network::new(project, numbering, &RejectedObservations::nothing(project)).ok()?;
     // Ties of three points are ties of one as well: as many groups are the same groups.
     let mut numbered = [1, 3].into_iter().map(|shared| structure::groups(&network, shared));
     let numbered = numbered.find(|numbered| numbered.len() == groups.len())?;

@@ -82,7 +82,7 @@ pub enum ResidualPlace {
     Measured,
 }
 
-/// What the scale of robust weights is.
+/// Scale of the robust weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RobustScale {
@@ -133,16 +133,16 @@ pub struct VarianceComponent {
     pub redundancy: f64,
     /// Factor on the group's a priori standard errors.
     pub factor: f64,
-    /// Standard error of the factor; null where it was not estimated, and is 1.
+    /// Standard error of the factor; null if it was not estimated, and is 1.
     pub factor_sigma: Option<f64>,
-    /// Standard deviation of what is not modelled, pixels; null where it was not asked for.
+    /// Standard deviation of what is not modelled, pixels; null if it was not asked for.
     pub unmodelled: Option<f64>,
     /// Its standard error.
     pub unmodelled_sigma: Option<f64>,
     /// Of image coordinates: root mean square of the a priori standard errors that the factor belongs to, pixels.
     #[serde(default)]
     pub a_priori_px: Option<f64>,
-    /// Why nothing was estimated of the group, whose a priori standard errors stay as they are; null where it was.
+    /// Why nothing was estimated of the group, whose a priori standard errors stay as they are; null if it was.
     #[serde(default)]
     pub not_estimated: Option<NotEstimated>,
 }
@@ -153,10 +153,10 @@ pub struct VarianceComponent {
 pub enum NotEstimated {
     /// The redundancy numbers of the group sum up to less: a variance from so few residuals would enter as exact and is not.
     LittleRedundancy {
-        /// What is needed.
+        /// Redundancy that is needed.
         needed: f64,
     },
-    /// All its residuals are 0: they say nothing of a variance.
+    /// All its residuals are 0: they do not determine a variance.
     NoResiduals,
 }
 
@@ -238,7 +238,7 @@ pub struct Correlation {
     pub matrix: Vec<Vec<f64>>,
 }
 
-/// In what residuals and the parameters of a camera are told.
+/// Unit of residuals and camera parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PhotoUnit {
     /// Millimetres: the brown model with a pixel pitch.
@@ -271,7 +271,7 @@ pub struct AdjustedPhoto {
     pub rotation: [f64; 3],
     /// Standard errors of the projection centre.
     pub sigma_position: Option<[f64; 3]>,
-    /// Standard errors of the angles; null where the attitude leaves them undefined (phi of ±90°).
+    /// Standard errors of the angles; null if the attitude leaves them undefined (phi of ±90°).
     pub sigma_rotation: Option<[f64; 3]>,
     /// Rms of the residuals in x, photo units.
     pub rms_x: f64,
@@ -319,7 +319,7 @@ pub struct AdjustedObservation {
     pub photo: String,
     /// Point identifier.
     pub point: String,
-    /// Residual in x. Of an observation that took no part: what it says beside the adjusted values; null where photo or point are
+    /// Residual in x. Of an observation that was not used: its residual from the adjusted values; null if photo or point are
     /// not adjusted, or the point has no image there.
     pub vx: Option<f64>,
     /// Residual in y.
@@ -328,11 +328,11 @@ pub struct AdjustedObservation {
     pub rx: Option<f64>,
     /// Redundancy number of y.
     pub ry: Option<f64>,
-    /// Baarda's w in x; null where the redundancy number is 0.
+    /// Baarda's w in x; null if the redundancy number is 0.
     pub wx: Option<f64>,
     /// Baarda's w in y.
     pub wy: Option<f64>,
-    /// Minimal detectable bias in x; null where the redundancy number is 0.
+    /// Minimal detectable bias in x; null if the redundancy number is 0.
     pub mdb_x: Option<f64>,
     /// Minimal detectable bias in y.
     pub mdb_y: Option<f64>,
@@ -342,7 +342,7 @@ pub struct AdjustedObservation {
     /// External reliability of y.
     #[serde(default)]
     pub effect_y: Option<f64>,
-    /// Factor on the weight from robust weighting, the smaller of x and y; null where it is 1.
+    /// Factor on the weight from robust weighting, the smaller of x and y; null if it is 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
     /// Whether it took part.
@@ -354,7 +354,7 @@ pub struct AdjustedObservation {
 pub struct CheckPoint {
     /// Point identifier.
     pub id: String,
-    /// Differences per axis; null where the point could not be determined.
+    /// Differences per axis; null if the point could not be determined.
     pub difference: Option<[f64; 3]>,
 }
 
@@ -367,7 +367,7 @@ pub struct CheckDistance {
     pub to: String,
     /// Given length.
     pub length: f64,
-    /// Adjusted minus given; null where an end could not be determined.
+    /// Adjusted minus given; null if an end could not be determined.
     pub difference: Option<f64>,
     /// Standard error of the adjusted length, from the full covariance of its ends; null without statistics.
     pub sigma: Option<f64>,
@@ -394,7 +394,7 @@ pub struct CheckStatistics {
 }
 
 impl Adjustment {
-    /// Whether standard errors were estimated from the residuals, so that sigma0 and the global test say nothing of the fit.
+    /// Whether standard errors were estimated from the residuals, so that sigma0 and the global test do not assess the fit.
     pub fn standard_errors_estimated(&self) -> bool {
         self.variance_components.iter().any(|component| component.not_estimated.is_none())
     }
@@ -409,14 +409,14 @@ pub struct Precision {
     pub mean_q: [f64; 3],
     /// Largest distance between two points.
     pub largest_dimension: f64,
-    /// Largest dimension over mean sigma, the N of 1 : N; null where sigma is 0.
+    /// Largest dimension over mean sigma, the N of 1 : N; null if sigma is 0.
     pub relative: Option<f64>,
 }
 
 /// Result of a bundle adjustment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Adjustment {
-    /// What was asked for.
+    /// The request.
     #[serde(default)]
     pub options: AdjustOptions,
     /// How the iteration ended.
@@ -431,12 +431,12 @@ pub struct Adjustment {
     pub constraints: usize,
     /// observations_count - unknowns + constraints.
     pub redundancy: usize,
-    /// Standard deviation of unit weight; null where the redundancy is 0.
+    /// Standard deviation of unit weight; null if the redundancy is 0.
     pub sigma0: Option<f64>,
-    /// χ² test of sigma0; null where the redundancy is 0, and where variance components were estimated: they make the statistic the
+    /// χ² test of sigma0; null if the redundancy is 0, and where variance components were estimated: they make the statistic the
     /// redundancy, whatever the residuals are.
     pub global_test: Option<GlobalTest>,
-    /// Rms of the residuals of all image coordinates that took part, pixels; null where there are none.
+    /// Rms of the residuals of all image coordinates that took part, pixels; null if there are none.
     #[serde(default)]
     pub rms_px: Option<f64>,
     /// By what observations, parameters and the network are judged.
@@ -479,13 +479,13 @@ pub struct Adjustment {
     /// not converge.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub patterns: Vec<ResidualPattern>,
-    /// What the network is weak in.
+    /// Weaknesses of the network.
     #[serde(default)]
     pub advice: Vec<Advice>,
     /// The correlations of the advice in groups, one a camera or photo; empty without any.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlation_groups: Vec<CorrelationGroup>,
-    /// Every item of the input that took no part; empty when all took part.
+    /// Every item of the input that was not used; empty when all took part.
     #[serde(default)]
     pub left_out: Vec<LeftOutItem>,
     /// Covariance matrix of the points asked for, three rows each in their order; null when none were.
@@ -499,12 +499,12 @@ pub struct Adjustment {
     pub systems: Vec<MeasuredSystem>,
 }
 
-/// What was done about the eccentricity of a circular target.
+/// Correction of the eccentricity of a circular target.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointEccentricity {
     /// Point identifier.
     pub point: String,
-    /// Largest correction of its measurements, pixels; null where nothing was corrected, since neither the document nor the
+    /// Largest correction of its measurements, pixels; null if nothing was corrected, since neither the document nor the
     /// surface around it tells how it is turned, or not for its neighbours.
     pub correction_px: Option<f64>,
 }

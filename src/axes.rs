@@ -12,7 +12,6 @@ use serde::{Deserialize, Serialize};
 /// The axes of the user as the document keeps them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-#[non_exhaustive]
 pub enum UserAxes {
     /// East, north, height: X, Y, Z by the letters of surveyors.
     Enh,

@@ -2,7 +2,7 @@
 //! photos say the same, and which camera model they support.
 //!
 //! A calibration with a shifted principal point and a rotation that makes up for it predicts the same directions. What a motion of the
-//! camera can take over is therefore taken out first, of an uncertainty as of a difference; [`MotionReference`] says how.
+//! camera can take over is therefore taken out first, of an uncertainty as of a difference; [`MotionReference`] defines how.
 //!
 //! Source: D. Kogan, mrcal, "Projection uncertainty" and "Differencing", <https://mrcal.secretsauce.net>.
 
@@ -77,7 +77,7 @@ fn camera_of<'a>(project: &'a Project, id: Option<&str>) -> Result<&'a Camera> {
 }
 
 /// # Errors
-/// [`Error::Invalid`] for options by which a wrong model rejects or weakens the very observations that speak against it.
+/// [`Error::Invalid`] for options by which a wrong model rejects or weakens the observations that contradict it.
 fn plain_options(options: &AdjustOptions) -> Result<()> {
     if options.snooping || options.robust.is_some() || options.variance_components.is_some() {
         return Err(Error::Invalid { reason: Reason::ModelsJudgedPlainly, at: Place::field("adjust") });

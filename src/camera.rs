@@ -9,7 +9,6 @@
 //! A camera-frame point has its z axis towards the viewer, so that points in front of the camera have negative z.
 
 mod brown;
-mod colours;
 mod fisheye;
 mod opencv;
 mod rational;
@@ -18,7 +17,6 @@ mod units;
 use nalgebra::Vector3;
 
 pub use brown::Brown;
-pub use colours::colour_differences;
 pub use fisheye::Fisheye;
 pub use opencv::Opencv;
 pub use rational::Rational;
@@ -74,7 +72,7 @@ impl Model {
     }
 
     /// Residual of a measurement (photo units for brown, pixels for the others) of the camera-frame point `p`, and its
-    /// derivatives; none where the point has no direction that the equations hold for, or where the distortion cannot be
+    /// derivatives; `None` if the point has no direction that the equations hold for, or where the distortion cannot be
     /// inverted. Points behind a camera that is not [wide](Self::is_wide) follow the same equations: whether that is allowed is
     /// for the caller to say.
     #[inline]
@@ -93,7 +91,7 @@ impl Model {
         matches!(self, Self::Fisheye(_))
     }
 
-    /// Pixel of a camera-frame point of this camera, whose model it is. None where it has no image.
+    /// Pixel of a camera-frame point of this camera, whose model it is. `None` if it has no image.
     pub fn pixel(&self, camera: &Camera, p: [f64; 3]) -> Option<[f64; 2]> {
         let pixel = match self {
             Self::Brown(brown) => camera.pixel_from_photo(brown.project(p)?),
@@ -104,7 +102,7 @@ impl Model {
         pixel.iter().all(|d| d.is_finite()).then_some(pixel)
     }
 
-    /// Ray of a pixel in the camera frame: (x, y, -1), or for a wide camera of unit length. None where the distortion has no
+    /// Ray of a pixel in the camera frame: (x, y, -1), or for a wide camera of unit length. `None` if the distortion has no
     /// inverse.
     pub fn ray(&self, camera: &Camera, pixel: [f64; 2]) -> Option<[f64; 3]> {
         let forwards = |[x, y]: [f64; 2]| [x, y, -1.0];
@@ -148,7 +146,7 @@ pub fn pixel_from_camera_point(camera: &Camera, p: Vector3<f64>) -> Option<[f64;
 }
 
 /// Newton's iteration for `f(x) = target` in two dimensions with step halving, from `start`; `f` gives value and
-/// derivative. The place and the derivative there; none unless the residual vanishes where the derivative keeps its
+/// derivative. The place and the derivative there; `None` unless the residual vanishes where the derivative keeps its
 /// orientation.
 fn invert(
     target: [f64; 2],
@@ -239,7 +237,6 @@ mod tests {
             free: Vec::new(),
             sigma: Default::default(),
             per_photo: false,
-            colours: Default::default(),
         }
     }
 
@@ -263,7 +260,6 @@ mod tests {
             free: Vec::new(),
             sigma: Default::default(),
             per_photo: false,
-            colours: Default::default(),
         }
     }
 

@@ -25,7 +25,7 @@
 //! ([`similarity::fit_robust`]), without a scale where both networks have one of their own. What such a network did as a whole is not
 //! seen, and standard errors differ with the datum; [`Alignment`] says which it was.
 //!
-//! What moved is told against what stayed. Where, besides the three that any similarity brings together, fewer than half of the common
+//! Movements are relative to the points that did not move. Where, besides the three that any similarity brings together, fewer than half of the common
 //! points agree within [`AGREEING`] times the limit, nothing stayed: other names, a mirror image, another length of the same bar. Then no coordinate is compared ([`Alignment::Unlike`]).
 
 mod shared;
@@ -35,18 +35,18 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::adjust::inside::influence::Quantity;
+use crate::adjust::inside::influence::AdjustedQuantity;
 use crate::adjustment::{AdjustedCamera, AdjustedPoint, Adjustment, PhotoUnit};
-use crate::initial::Spread;
+use crate::initial::PrincipalAxes;
 use crate::initial::similarity::{self, Similarity};
 use crate::project::{DatumKind, Parameter, Photo, Point, Project, Role};
 use crate::statistics::fisher::Fisher;
 
-use shared::{Covariances, Laid, Wanted, covariances, same_photo};
+use shared::{ComparedQuantities, Covariances, SystemTransformation, covariances, same_photo};
 
 /// A point agrees with its earlier self where its ratio is below so many times the limit of a single test. Standard errors of two
 /// sittings are too small by two or three where both leave the same out; a majority beyond that has no part that stayed, and what a
-/// similarity says of it (a scale of 0.24 for a mirror image) is nobody's movement.
+/// similarity says of it (a scale of 0.24 for a mirror image) is not a movement.
 const AGREEING: f64 = 3.0;
 /// Without standard errors: where it moved by less than this part of the object's extent.
 const AGREEING_SHARE: f64 = 0.01;
@@ -62,9 +62,9 @@ pub enum Alignment {
     Same,
     /// Each is in a system of its own: the earlier one was laid upon the later one.
     Fitted {
-        /// Common points that carried it.
+        /// Common points from which it was estimated.
         points: usize,
-        /// Its scale; none where both networks have their own, which is compared then.
+        /// Its scale; `None` if both networks have their own, which is compared then.
         scale: Option<f64>,
     },
     /// Too few points are common, or they lie on a line: no coordinate is compared.
@@ -79,7 +79,7 @@ pub enum Alignment {
         common: usize,
         /// How many of them agree under the best that was found.
         agreeing: usize,
-        /// Median of their differences over their standard errors; none without standard errors.
+        /// Median of their differences over their standard errors; `None` without standard errors.
         ratio: Option<f64>,
         /// Ratio of lengths, later over earlier, of the similarity that fits best with a scale of its own; told where it makes enough
         /// points agree though both networks have a scale.
@@ -153,7 +153,7 @@ pub struct ParameterChange {
     pub ratio: Option<f64>,
 }
 
-/// What a later adjustment changed beside an earlier one.
+/// Differences between a later and an earlier adjustment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// The system of the differences.
@@ -170,9 +170,9 @@ pub struct Comparison {
     pub gone: Vec<String>,
     /// Points that only the later has.
     pub new: Vec<String>,
-    /// Root mean square of the lengths by which the points moved; none without common points.
+    /// Root mean square of the lengths by which the points moved; `None` without common points.
     pub rms: Option<f64>,
-    /// Ratios beyond this are told: the critical value of the later adjustment's tests.
+    /// Ratios above this are reported: the critical value of the later adjustment's tests.
     pub limit: f64,
     /// Points whose ratio is beyond it.
     pub beyond: usize,
@@ -190,24 +190,24 @@ pub struct Comparison {
 
 /// Compares two adjustments, each with the project it was made from.
 ///
-/// Nothing is refused: what cannot be compared is left out, and the result says what that was.
+/// Nothing is refused: items that cannot be compared are left out and listed in the result.
 pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) -> Comparison {
     let (earlier, later) = (before.1, after.1);
     let places: HashMap<&str, usize> = earlier.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
     let pairs: Vec<(usize, usize)> =
         later.points.iter().enumerate().filter_map(|(k, p)| Some((*places.get(p.id.as_str())?, k))).collect();
     let independent = independent(before.0, after.0);
-    let joined = Joined { independent, limit: later.criteria.w, computed: None };
+    let joined = JointTest { independent, limit: later.criteria.w, computed: None };
     let (alignment, laid) = aligned(before, after, &pairs, joined);
     let mut points = Vec::new();
     let mut photos = Vec::new();
     let centres: HashMap<&str, _> =
-        earlier.photos.iter().map(|p| (p.id.as_str(), Placed::bare(p.position, p.sigma_position))).collect();
+        earlier.photos.iter().map(|p| (p.id.as_str(), UncertainPlace::bare(p.position, p.sigma_position))).collect();
     let common: Vec<_> = later.photos.iter().filter(|q| centres.contains_key(q.id.as_str())).collect();
     let (mut parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras, independent);
     let mut covariance = if independent { CovarianceOf::Sum } else { CovarianceOf::Larger };
     if let Some(laid) = &laid {
-        let wanted = Wanted {
+        let wanted = ComparedQuantities {
             points: pairs.iter().map(|&(_, k)| later.points[k].id.as_str()).collect(),
             photos: common.iter().map(|q| q.id.as_str()).collect(),
             parameters: parameters.iter().map(ParameterChange::quantity).collect(),
@@ -223,11 +223,17 @@ pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) 
         let of_photos = |k: usize| found.as_ref().map(|found| found.photos[k]);
         points.extend(pairs.iter().enumerate().map(|(n, &(i, k))| {
             let (p, q) = (&earlier.points[i], &later.points[k]);
-            moved(&q.id, Placed::of(p), Placed::of(q), &laid.transform, Joined { computed: of_points(n), ..joined })
+            moved(
+                &q.id,
+                UncertainPlace::of(p),
+                UncertainPlace::of(q),
+                &laid.transform,
+                JointTest { computed: of_points(n), ..joined },
+            )
         }));
         photos.extend(common.iter().enumerate().map(|(n, q)| {
-            let now = Placed::bare(q.position, q.sigma_position);
-            let joined = Joined { computed: of_photos(n), ..joined };
+            let now = UncertainPlace::bare(q.position, q.sigma_position);
+            let joined = JointTest { computed: of_photos(n), ..joined };
             moved(&q.id, centres[q.id.as_str()], now, &laid.transform, joined)
         }));
     }
@@ -258,13 +264,13 @@ fn aligned(
     (old, earlier): (&Project, &Adjustment),
     (new, later): (&Project, &Adjustment),
     pairs: &[(usize, usize)],
-    joined: Joined,
-) -> (Alignment, Option<Laid>) {
+    joined: JointTest,
+) -> (Alignment, Option<SystemTransformation>) {
     if old.unit != new.unit {
         return (Alignment::Units { before: old.unit.clone(), after: new.unit.clone() }, None);
     }
     if same_system(old, new) {
-        return (Alignment::Same, Some(Laid { transform: Similarity::identity(), carriers: None }));
+        return (Alignment::Same, Some(SystemTransformation { transform: Similarity::identity(), carriers: None }));
     }
     let source: Vec<_> = pairs.iter().map(|&(i, _)| Vector3::from(earlier.points[i].xyz)).collect();
     let target: Vec<_> = pairs.iter().map(|&(_, k)| Vector3::from(later.points[k].xyz)).collect();
@@ -272,14 +278,14 @@ fn aligned(
     let Ok((fit, kept)) = similarity::fit_robust(&source, &target, 0) else {
         return (Alignment::Apart { common }, None);
     };
-    let extent = Spread::of(&target).map_or(0.0, |spread| spread.extent.norm());
+    let extent = PrincipalAxes::of(&target).map_or(0.0, |spread| spread.extent.norm());
     // Three points agree under some similarity whatever they are: what counts are the others.
     let majority = |agreeing: usize| agreeing >= 3 && 2 * (agreeing - 3) >= common - 3;
     let agreement = |transform: &Similarity, mirrored: bool| {
         let moved = pairs.iter().map(|&(i, k)| {
             let (p, q) = (&earlier.points[i], &later.points[k]);
-            let before = if mirrored { Placed::of(p).mirrored() } else { Placed::of(p) };
-            moved(&q.id, before, Placed::of(q), transform, joined)
+            let before = if mirrored { UncertainPlace::of(p).mirrored() } else { UncertainPlace::of(p) };
+            moved(&q.id, before, UncertainPlace::of(q), transform, joined)
         });
         Agreement::of(moved, AGREEING * later.criteria.w, AGREEING_SHARE * extent)
     };
@@ -299,7 +305,7 @@ fn aligned(
     let carriers: Vec<usize> = (0..kept.len()).filter(|k| kept[*k]).collect();
     let alignment = Alignment::Fitted { points: carriers.len(), scale: (!both_scaled).then_some(scale) };
     let parameters = if both_scaled { 6 } else { 7 };
-    (alignment, Some(Laid { transform: laid, carriers: Some((carriers, parameters)) }))
+    (alignment, Some(SystemTransformation { transform: laid, carriers: Some((carriers, parameters)) }))
 }
 
 /// How well two networks agree under a transform.
@@ -338,7 +344,7 @@ fn same_system(old: &Project, new: &Project) -> bool {
     kept.count() >= SAME_SYSTEM
 }
 
-/// Whether something in the network says how long it is.
+/// Whether the network has a length.
 fn has_scale(project: &Project, adjustment: &Adjustment) -> bool {
     let there: BTreeSet<&str> = adjustment.points.iter().map(|p| p.id.as_str()).collect();
     let used = |from: &str, to: &str| there.contains(from) && there.contains(to);
@@ -372,7 +378,7 @@ fn independent(old: &Project, new: &Project) -> bool {
 /// How two results are joined: whether they share nothing, the limit of a single test, and the covariance of the difference where it was
 /// computed.
 #[derive(Clone, Copy)]
-struct Joined {
+struct JointTest {
     independent: bool,
     limit: f64,
     computed: Option<Matrix3<f64>>,
@@ -381,7 +387,7 @@ struct Joined {
 /// Variances of a difference below this part of those of the two places are rounding: both results have the same observations there.
 const ROUNDING: f64 = 1e-9;
 
-/// dᵀC⁺d and rank(C) in the directions with variances above `least`; none where there is no such direction.
+/// dᵀC⁺d and rank(C) in the directions with variances above `least`; `None` if there is no such direction.
 fn vector_test(d: &Vector3<f64>, c: &Matrix3<f64>, least: f64) -> Option<(f64, usize)> {
     let eigen = c.symmetric_eigen();
     let free = (0..3).filter(|&k| eigen.eigenvalues[k] > least.max(ROUNDING * eigen.eigenvalues.max()));
@@ -391,8 +397,8 @@ fn vector_test(d: &Vector3<f64>, c: &Matrix3<f64>, least: f64) -> Option<(f64, u
 }
 
 impl ParameterChange {
-    fn quantity(&self) -> Quantity {
-        Quantity::Parameter(self.camera.clone(), self.photo.clone(), self.parameter)
+    fn quantity(&self) -> AdjustedQuantity {
+        AdjustedQuantity::Parameter(self.camera.clone(), self.photo.clone(), self.parameter)
     }
 
     /// Takes the computed variance of the difference in place of what was known before.
@@ -404,15 +410,15 @@ impl ParameterChange {
     }
 }
 
-/// A place with what is known of its errors.
+/// Coordinates with their standard errors and covariance.
 #[derive(Clone, Copy)]
-struct Placed {
+struct UncertainPlace {
     xyz: [f64; 3],
     sigma: Option<[f64; 3]>,
     covariance: Option<Matrix3<f64>>,
 }
 
-impl Placed {
+impl UncertainPlace {
     fn of(point: &AdjustedPoint) -> Self {
         let matrix = |[xx, xy, xz, yy, yz, zz]: [f64; 6]| Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
         Self { xyz: point.xyz, sigma: point.sigma, covariance: point.covariance.map(matrix) }
@@ -435,7 +441,7 @@ impl Placed {
 }
 
 /// A point's movement, its earlier place and errors brought into the later system.
-fn moved(id: &str, before: Placed, after: Placed, transform: &Similarity, joined: Joined) -> Moved {
+fn moved(id: &str, before: UncertainPlace, after: UncertainPlace, transform: &Similarity, joined: JointTest) -> Moved {
     let place = transform.point(&Vector3::from(before.xyz));
     let difference: [f64; 3] = std::array::from_fn(|axis| after.xyz[axis] - place[axis]);
     // Turned without what the axes have in common, where only standard errors are known: Σ R²σ².

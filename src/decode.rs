@@ -5,7 +5,7 @@
 //! of other coloured pictures is computed in floating point from the decoded channels and rounded once.
 //!
 //! What a file claims is held against its bytes before memory is taken for it, and rows that a damaged JPEG does not give are
-//! named ([`Photo::damaged_rows`]).
+//! named ([`DecodedPhoto::damaged_rows`]).
 
 mod bytes;
 mod embedded;
@@ -47,9 +47,9 @@ pub struct Size {
     pub bits: u32,
 }
 
-/// One channel of a picture, as far as its file gives it.
+/// One channel of a decoded photo.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Photo {
+pub struct DecodedPhoto {
     /// The samples; mid-grey in rows that are damaged.
     pub grey: Grey,
     /// Rows that could not be decoded: first row and the row after the last, in rising order. Empty for a sound file.
@@ -58,7 +58,7 @@ pub struct Photo {
     pub page: Option<Page>,
 }
 
-impl Photo {
+impl DecodedPhoto {
     /// Memory that the samples take.
     pub fn bytes(&self) -> usize {
         match &self.grey.samples {
@@ -109,7 +109,7 @@ pub fn jpeg_size(bytes: &[u8]) -> Result<Size> {
 /// [`Error::UnknownImageFormat`] for other formats and depths, [`Error::BrokenImage`] for damaged files of which nothing is sure
 /// to be whole, [`Error::ImageSize`] for pictures beyond [`PIXEL_LIMIT`] or beyond what the file's bytes can hold, before
 /// anything of that size is allocated.
-pub fn photo(bytes: &[u8], channel: Channel) -> Result<Photo> {
+pub fn photo(bytes: &[u8], channel: Channel) -> Result<DecodedPhoto> {
     Ok(open_photo(bytes, channel, None)?.0)
 }
 
@@ -131,12 +131,12 @@ pub fn grey(bytes: &[u8], channel: Channel) -> Result<Grey> {
 ///
 /// # Errors
 /// As [`photo`].
-pub fn photo_and_picture(bytes: &[u8], channel: Channel, max_side: u32) -> Result<(Photo, Picture)> {
+pub fn photo_and_picture(bytes: &[u8], channel: Channel, max_side: u32) -> Result<(DecodedPhoto, Picture)> {
     let (photo, picture) = open_photo(bytes, channel, Some(max_side))?;
     Ok((photo, picture.unwrap_or_default()))
 }
 
-fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(Photo, Option<Picture>)> {
+fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(DecodedPhoto, Option<Picture>)> {
     let mut damaged_rows = Vec::new();
     if signature(bytes) == Signature::Jpeg {
         let frame = jpeg::header(bytes).map_err(refused)?;
@@ -146,7 +146,7 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
             let picture = max_side.map(|side| show::reduced_luma(&luma, side));
             let jpeg::Plane8 { width, height, samples } = luma.plane;
             let grey = Grey { width, height, samples: Samples::U8(samples) };
-            return Ok((Photo { grey, damaged_rows: luma.damaged, page: None }, picture));
+            return Ok((DecodedPhoto { grey, damaged_rows: luma.damaged, page: None }, picture));
         }
         if let Some(first) = jpeg::damaged_from(bytes).map_err(refused)? {
             // chroma is interpolated from damaged rows too
@@ -169,11 +169,11 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
             samples[first..last].fill(128);
         }
     }
-    Ok((Photo { grey: Grey { width, height, samples }, damaged_rows, page }, picture))
+    Ok((DecodedPhoto { grey: Grey { width, height, samples }, damaged_rows, page }, picture))
 }
 
 /// Whether the first plane of a JPEG is the channel that is wanted.
-fn is_grey(frame: &jpeg::Frame, channel: Channel) -> bool {
+fn is_grey(frame: &jpeg::FrameHeader, channel: Channel) -> bool {
     let named = match frame.colours {
         jpeg::Colours::Grey => true,
         jpeg::Colours::Luma => channel == Channel::Grey,

@@ -10,7 +10,7 @@ use crate::project::{Camera, Parameter};
 use crate::rotation::object_to_camera;
 
 /// Projection centre, then the corners of the photo (top left, top right, bottom right, bottom left of the stored grid) at `depth` in
-/// front of it, the object's unit; none without a principal distance.
+/// front of it, the object's unit; `None` without a principal distance.
 pub fn frustum(camera: &Camera, position: [f64; 3], rotation: [f64; 3], depth: f64) -> Option<[[f64; 3]; 5]> {
     let get = |p: Parameter| camera.interior.get(p);
     let object_from_camera = object_to_camera(rotation).transpose();
@@ -32,7 +32,20 @@ pub fn frustum(camera: &Camera, position: [f64; 3], rotation: [f64; 3], depth: f
     Some([position, corner(0.0, 0.0)?, corner(w, 0.0)?, corner(w, h)?, corner(0.0, h)?])
 }
 
-/// Columns L with LLᵀ = Σ: they carry the unit sphere onto the error ellipsoid xᵀΣ⁻¹x = 1. Covariance as xx, xy, xz, yy, yz, zz;
+/// Projection centre and corners of a photo of which only the viewing direction is known: upright, one third wider than high, at a field
+/// of view of about 50 degrees. `None` where the direction has no length.
+pub fn frustum_along(position: [f64; 3], direction: [f64; 3], depth: f64) -> Option<[[f64; 3]; 5]> {
+    let ahead = Vector3::from(direction).try_normalize(1e-12)?;
+    // Upright, but for photos that look along the vertical.
+    let vertical = if ahead.z.abs() < 0.99 { Vector3::z() } else { Vector3::y() };
+    let right = ahead.cross(&vertical).normalize();
+    let up = right.cross(&ahead);
+    let centre = Vector3::from(position);
+    let corner = |x: f64, y: f64| (centre + depth * (ahead + 0.4 * x * right + 0.3 * y * up)).into();
+    Some([position, corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)])
+}
+
+/// Columns L with LLᵀ = Σ: they transform the unit sphere to the error ellipsoid xᵀΣ⁻¹x = 1. Covariance as xx, xy, xz, yy, yz, zz;
 /// what has no extent along an axis is flat there.
 pub fn ellipsoid([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
     let root = |v: f64| v.max(0.0).sqrt();
@@ -95,6 +108,19 @@ mod tests {
     use crate::project::Interior;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_photo_stands_across_its_viewing_direction() {
+        for direction in [[1.0, 2.0, -0.5], [0.0, 0.0, -3.0]] {
+            let [centre, corners @ ..] = frustum_along([1.0, 2.0, 3.0], direction, 5.0).expect("a direction");
+            let middle = corners.map(Vector3::from).iter().sum::<Vector3<f64>>() / 4.0 - Vector3::from(centre);
+            let ahead = Vector3::from(direction).normalize();
+            assert!((middle - 5.0 * ahead).norm() < 1e-12);
+            let [top, side] = [1, 3].map(|k| Vector3::from(corners[k]) - Vector3::from(corners[0]));
+            assert!(top.dot(&ahead).abs() < 1e-12 && side.dot(&ahead).abs() < 1e-12 && top.dot(&side).abs() < 1e-12);
+        }
+        assert_eq!(frustum_along([0.0; 3], [0.0; 3], 1.0), None);
+    }
 
     #[test]
     fn corners_of_a_photo_are_seen_in_its_corners() {

@@ -5,24 +5,23 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next, [`pass`](mod@pass) through a whole picture. Rings around a target are read as codes ([`code`]). In ordinary
-//! photos [`alike`] finds more by what the targets found have in common. [`rims`] makes donuts of those that are holes. What decides is one table, [`acceptance`]. A room uses those
-//! before it, never the reverse. [`whole`] goes around what a damaged file does not give, [`sites`] measures on a sensor's own samples,
+//! photos [`small_targets`] finds more by comparison with the targets found. [`rims`] makes donuts of those that are holes. What decides is one table, [`acceptance`]. A room uses those
+//! before it, never the reverse. [`damaged_rows`] measures the intact parts of damaged photos, [`sites`] measures on a sensor's own samples,
 //! [`colours`] red and blue beside green.
 
 mod acceptance;
-mod alike;
+mod adaptive_moments;
 mod centroid;
 mod click;
 mod code;
 mod colours;
-mod covered;
+mod damaged_rows;
 mod edges;
 mod ellipse;
-mod lump;
 mod measure;
 mod median;
 mod normal;
-mod part;
+mod occlusion;
 mod pass;
 mod picture;
 mod rendered;
@@ -30,48 +29,50 @@ mod rims;
 mod search;
 mod shot;
 mod sites;
-mod whole;
+mod small_targets;
+mod window;
 
 pub(crate) use ellipse::{conic, outline};
 
 use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Target};
 use crate::error::{self, Error, Place, Result};
-use crate::image::{GreyView, Plane, Sample, SamplesView};
-use acceptance::picture::{RESTORED, ROUNDED, SOFT};
-use alike::Wanted;
+use crate::image::{GreyView, Sample, SampleView, SamplesView};
+use acceptance::levels::ROUNDING;
+use acceptance::picture::{RESTORED, SOFT};
 use code::outline_of;
 pub use colours::colours_apart;
+pub use damaged_rows::{detect_photo, measure_in_photo};
 use measure::Measure;
 use normal::BLUR;
 use outline::Outline;
 use pass::{Pass, Soft};
 use picture::character::{APART, Character};
 use picture::dither;
-use picture::noise::{self, Levels};
+use picture::noise::{self, GreyStatistics};
 use picture::sharpening::{self, Sharpening};
 use picture::softened::Softened;
-use search::census::Census;
+use search::tested_outlines::TestedOutlines;
 pub use shot::{detect_shot, measure_in_shot};
-pub use whole::{detect_photo, measure_in_photo};
+use small_targets::ExpectedShape;
 
 /// Finds and measures the targets of a picture.
 ///
 /// # Errors
-/// [`Error::Invalid`] for diameters that are not positive finite numbers or stand in the wrong order, and for a picture of two levels whose greys
+/// [`Error::Invalid`] for diameters that are not positive finite numbers or are in the wrong order, and for a picture of two levels whose greys
 /// are patterns of dots.
 pub fn detect(image: &GreyView, options: &DetectOptions) -> Result<Detection> {
     check(options)?;
     check_levels(image)?;
     let mut detection = match image.samples() {
-        SamplesView::U8(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
-        SamplesView::U16(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
+        SamplesView::U8(samples) => detect_in(SampleView::new(image.width(), image.height(), samples), options),
+        SamplesView::U16(samples) => detect_in(SampleView::new(image.width(), image.height(), samples), options),
     };
     detection.bits = image.bits();
     detection.number_targets();
     Ok(detection)
 }
 
-/// Measures the one target at a click, in a window around it; none when there is no target.
+/// Measures the one target at a click, in a window around it; `None` if there is no target.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a place outside of the picture, and as for [`detect`].
@@ -80,8 +81,12 @@ pub fn measure_at(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> 
     check_levels(image)?;
     check_place(image, u, v)?;
     Ok(match image.samples() {
-        SamplesView::U8(samples) => click::measure(Plane::new(image.width(), image.height(), samples), u, v, options),
-        SamplesView::U16(samples) => click::measure(Plane::new(image.width(), image.height(), samples), u, v, options),
+        SamplesView::U8(samples) => {
+            click::measure(SampleView::new(image.width(), image.height(), samples), u, v, options)
+        }
+        SamplesView::U16(samples) => {
+            click::measure(SampleView::new(image.width(), image.height(), samples), u, v, options)
+        }
     })
 }
 
@@ -94,8 +99,12 @@ pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) ->
     check_levels(image)?;
     check_place(image, u, v)?;
     Ok(match image.samples() {
-        SamplesView::U8(samples) => click::compare(Plane::new(image.width(), image.height(), samples), u, v, options),
-        SamplesView::U16(samples) => click::compare(Plane::new(image.width(), image.height(), samples), u, v, options),
+        SamplesView::U8(samples) => {
+            click::compare(SampleView::new(image.width(), image.height(), samples), u, v, options)
+        }
+        SamplesView::U16(samples) => {
+            click::compare(SampleView::new(image.width(), image.height(), samples), u, v, options)
+        }
     })
 }
 
@@ -103,8 +112,8 @@ pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) ->
 pub fn read_codes(image: &GreyView, targets: &mut [Target], codes: Codes) {
     let (width, height) = (image.width(), image.height());
     match image.samples() {
-        SamplesView::U8(samples) => code::read_in(&Plane::new(width, height, samples), targets, codes),
-        SamplesView::U16(samples) => code::read_in(&Plane::new(width, height, samples), targets, codes),
+        SamplesView::U8(samples) => code::read_in(&SampleView::new(width, height, samples), targets, codes),
+        SamplesView::U16(samples) => code::read_in(&SampleView::new(width, height, samples), targets, codes),
     }
 }
 
@@ -124,8 +133,8 @@ fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
 fn check_levels(image: &GreyView) -> Result<()> {
     let (width, height) = (image.width(), image.height());
     let is_dithered = match image.samples() {
-        SamplesView::U8(samples) => dither::is_dithered(&Plane::new(width, height, samples)),
-        SamplesView::U16(samples) => dither::is_dithered(&Plane::new(width, height, samples)),
+        SamplesView::U8(samples) => dither::is_dithered(&SampleView::new(width, height, samples)),
+        SamplesView::U16(samples) => dither::is_dithered(&SampleView::new(width, height, samples)),
     };
     if is_dithered {
         return Err(Error::Invalid { reason: error::Reason::Dithered, at: Place::field("picture") });
@@ -160,9 +169,9 @@ fn check(options: &DetectOptions) -> Result<()> {
     Ok(())
 }
 
-/// The picture as it is; and, where it is no laboratory's, also softened and with its sharpening undone, for what is hidden
+/// Detects on the original; for processed photos also on a smoothed copy with its sharpening undone, for what is occluded
 /// otherwise. What was found first stands.
-fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
+fn detect_in<T: Sample>(plane: SampleView<T>, options: &DetectOptions) -> Detection {
     let mut levels = noise::levels(&plane);
     let character = Character::of(&plane, &levels);
     let mut processed = character.is_processed(&levels);
@@ -174,7 +183,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
         let found = sharpening::of_rims(&plane, outlines.iter(), levels.saturation);
-        processed = found.is_some_and(|sharpening| sharpening.amount > acceptance::picture::BY_RIMS);
+        processed = found.is_some();
         levels.developed = processed && !character.is_clipped();
     }
     let mut factors = passed.correlate();
@@ -245,7 +254,7 @@ fn is_same(one: &Target, other: &Target) -> bool {
     apart < near * one.minor.min(other.minor) && one.major < ratio * other.major && other.major < ratio * one.major
 }
 
-fn report(levels: &Levels, character: &Character, method: Method) -> PictureReport {
+fn report(levels: &GreyStatistics, character: &Character, method: Method) -> PictureReport {
     let [clipped_dark, clipped_bright] = character.clipped;
     PictureReport {
         clipped_dark,
@@ -261,8 +270,8 @@ fn report(levels: &Levels, character: &Character, method: Method) -> PictureRepo
 /// What a softened picture shows beyond the targets that are known; and, when the rims of all these show a sharpening, what it
 /// shows once that is undone, with that picture.
 fn soften<T: Sample>(
-    plane: &Plane<T>,
-    levels: &Levels,
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
     options: &DetectOptions,
     known: &[Target],
     picture: &mut PictureReport,
@@ -270,7 +279,7 @@ fn soften<T: Sample>(
 ) -> (Pass, Option<(Softened, Pass)>) {
     picture.softened = true;
     let (_, mut softened) = pass_softened(plane, levels, None, SOFT, options, known);
-    alike::drop_faint(&mut softened.detection.targets, known);
+    small_targets::drop_faint(&mut softened.detection.targets, known);
     let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
     let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
         add(factors, softened.correlate());
@@ -278,7 +287,7 @@ fn soften<T: Sample>(
     };
     (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
     let (undone, mut restored) = pass_softened(plane, levels, Some(sharpening), RESTORED, options, known);
-    alike::drop_faint(&mut restored.detection.targets, known);
+    small_targets::drop_faint(&mut restored.detection.targets, known);
     add(factors, restored.correlate());
     add(factors, softened.correlate());
     let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();
@@ -299,8 +308,8 @@ fn add(sum: &mut [f64; 2], other: [f64; 2]) {
 
 /// One pass over a picture made of another one, in that one's grey levels.
 fn pass_softened<T: Sample>(
-    plane: &Plane<T>,
-    own: &Levels,
+    plane: &SampleView<T>,
+    own: &GreyStatistics,
     sharpening: Option<Sharpening>,
     sigma: f64,
     options: &DetectOptions,
@@ -309,9 +318,9 @@ fn pass_softened<T: Sample>(
     let soft = Softened::of(plane, sharpening, sigma);
     let levels = noise::levels_at(&soft.plane(), APART);
     // a mean has no end of the scale, and no noise less than that of rounding
-    let levels = Levels {
+    let levels = GreyStatistics {
         saturation: f64::from(u16::MAX),
-        noise: levels.noise.max(ROUNDED * soft.scale),
+        noise: levels.noise.max(ROUNDING * soft.scale),
         stairs: false,
         developed: own.developed,
         ..levels
@@ -333,10 +342,10 @@ fn pass_softened<T: Sample>(
 
 /// Small dots in rings of codes that only the picture itself shows: a mean joins them with their ring, and compression scatters their
 /// edges. `own` are the targets found there, `known` all. Only a ring around them makes targets of them: letters have such shapes too.
-/// Where a picture is not `processed` what lies around each was its ground already.
+/// Where a picture is not `processed` what lies around each was its background already.
 fn in_rings<'a, T: Sample>(
-    plane: Plane<T>,
-    levels: Levels,
+    plane: SampleView<T>,
+    levels: GreyStatistics,
     options: &DetectOptions,
     processed: bool,
     doubtful: &[Outline],
@@ -345,14 +354,14 @@ fn in_rings<'a, T: Sample>(
 ) -> Vec<Target> {
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = processed;
-    let Some(alike) = alike::of(&mut measure, &[], own) else { return Vec::new() };
-    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
-    known.for_each(|target| census.know(target));
+    let Some(common) = small_targets::of(&mut measure, &[], own) else { return Vec::new() };
+    let mut tested = TestedOutlines::new(plane.width, plane.height, code::have_spots(options.codes));
+    known.for_each(|target| tested.know(target));
     let mut colours = Vec::new();
-    let wanted = if processed { Wanted::InRingOrWide } else { Wanted::InRing };
-    pass::take_alike(&mut measure, &mut census, &mut colours, doubtful, &alike, wanted);
+    let wanted = if processed { ExpectedShape::InRingOrWide } else { ExpectedShape::InRing };
+    pass::take_small_targets(&mut measure, &mut tested, &mut colours, doubtful, &common, wanted);
     let mut left =
-        Pass { detection: census.finish(), grounds: Vec::new(), colours, doubtful: Vec::new(), coloured: processed };
+        Pass { detection: tested.finish(), grounds: Vec::new(), colours, doubtful: Vec::new(), coloured: processed };
     left.correlate();
     left.detection.targets
 }

@@ -1,6 +1,6 @@
 //! Result of detection: targets with their centres and standard errors, and rejections with their reasons.
 
-mod apart;
+mod chromatic_aberration;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ring_code::Family;
 
-pub use apart::{ColourApart, ColoursApart, Lateral, Shift};
+pub use chromatic_aberration::{ColourApart, ColoursApart, Lateral, Shift};
 
 /// How a centre is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -181,7 +181,7 @@ pub struct Quality {
     pub saturated: f64,
     /// Roundness: minor over major axis.
     pub roundness: f64,
-    /// Share of the outline that is hidden or disturbed, 0 to 1.
+    /// Share of the outline that is occluded or disturbed, 0 to 1.
     pub occluded: f64,
     /// Safety of the code reading, 0 (a coin toss) to 1.
     pub code_margin: Option<f64>,
@@ -205,15 +205,15 @@ pub enum CodeNote {
     /// The sectors may be those of another family, or dots that stand around the target: so of every ring whose arcs all end on a coarser grid,
     /// as those of a code of 8 sectors do on one of 16, unless a photo has mostly codes of the finer one.
     OtherFamily,
-    /// Nothing speaks against it alone, but much is near its limit, or it is small, blurred or a single arc: it may be one by chance.
+    /// No single test rejects it, but several are near their limits, or the ring is small, blurred or a single arc: it may resemble a code by chance.
     Uncertain,
     /// The ring is a code of several families.
     SeveralFamilies,
-    /// Two or more ellipses stand where a ring has its sectors: a ring that was not read. They are no targets and count as rejected.
+    /// Two or more ellipses stand where a ring has its sectors: a ring that was not read. They are counted as rejected.
     Unread,
 }
 
-/// Kept measurements have sentences here that earlier versions wrote: those say nothing any more.
+/// Kept measurements have sentences here that earlier versions wrote: those are ignored.
 fn known_note<'de, D: serde::Deserializer<'de>>(value: D) -> Result<Option<CodeNote>, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged)]
@@ -234,7 +234,7 @@ pub struct CodeCandidate {
     pub family: Family,
     /// Its number there.
     pub number: u32,
-    /// Safety of this reading; 0 where it is doubtful within its family.
+    /// Safety of this reading; 0 if it is doubtful within its family.
     pub margin: f64,
 }
 
@@ -326,7 +326,7 @@ impl InnerRim {
 }
 
 impl Target {
-    /// What an observation of it refers to.
+    /// Reference of an observation.
     pub fn number(&self) -> Option<u32> {
         Some(self.id).filter(|id| *id > 0)
     }
@@ -340,7 +340,7 @@ impl Target {
     /// Number of its code in a family, where it reads safely as one.
     pub fn code_in(&self, family: Family) -> Option<u32> {
         let safe = |c: &&CodeCandidate| c.family == family && c.margin > 0.0;
-        // a code without its family says nothing of others
+        // a code without its family gives no information on others
         let own = self.code.filter(|_| self.code_family.is_none_or(|own| own == family));
         self.code_candidates.iter().find(safe).map(|c| c.number).or(own)
     }
@@ -362,7 +362,7 @@ impl Target {
     }
 }
 
-/// Why a blob is no target. The serialised names are part of the JavaScript face.
+/// Why a blob is rejected. The serialised names are part of the JavaScript face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
@@ -382,7 +382,7 @@ pub enum Reason {
     Saturated,
     /// Cut by the border of the photo.
     AtBorder,
-    /// Too much of its outline is hidden.
+    /// Too much of its outline is occluded.
     Occluded,
     /// Part of a code ring, not a target.
     CodeRing,
@@ -403,7 +403,7 @@ pub struct Rejected {
     pub reason: Reason,
 }
 
-/// What one method makes of a target.
+/// Result of one method for a target.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MethodResult {
     /// The method.
@@ -414,15 +414,15 @@ pub struct MethodResult {
     pub reason: Option<Reason>,
 }
 
-/// What a picture shows of how it was taken and processed.
+/// Properties of a picture that result from exposure and processing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PictureReport {
-    /// Amount of the unsharp mask that its edges show: the share of the difference from a mean that was added; 0 where none is seen.
+    /// Amount of the unsharp mask that its edges show: the share of the difference from a mean that was added; 0 if none is seen.
     /// Of a weak or narrow mask amount x radius^2 is known, to some 30 %, and hardly the one apart from the other. A tone curve, or a JPEG
     /// of a quality of 70 or less, steepens edges too and may be taken for a sharpening.
     pub sharpening: f64,
-    /// Sigma of that mean in pixels; 0 where there is none.
+    /// Sigma of that mean in pixels; 0 if there is none.
     pub sharpening_radius: f64,
     /// Share of samples at the dark end of the scale, 0 to 1.
     pub clipped_dark: f64,
@@ -437,7 +437,7 @@ pub struct PictureReport {
     /// Whether the standard errors take the noise of neighbouring samples as independent, as those of all methods but least squares do:
     /// of a compressed picture they are too small (by 1.5 to 9 times in `tests/engine/detect/light.rs`).
     pub white_noise_assumed: bool,
-    /// Whether the picture was searched and measured softened as well, for what it would have hidden otherwise.
+    /// Whether the picture was searched and measured softened as well, for what it would have occluded otherwise.
     pub softened: bool,
 }
 
@@ -477,7 +477,7 @@ pub enum MeasuredOn {
 /// What was measured on, where it is a sensor's own samples. Levels and noise are in its samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Measured {
+pub struct SampleSource {
     /// Which samples.
     pub on: MeasuredOn,
     /// Name of the file's format.
@@ -490,7 +490,7 @@ pub struct Measured {
     pub bits: u32,
     /// The part of the grid that light reaches: left, top, width, height.
     pub active_area: Option<[u32; 4]>,
-    /// Sample from which one is clipped.
+    /// Sample from which one is saturated.
     pub white: Option<f64>,
     /// Growth of a sample's variance with the light in it.
     pub gain: Option<f64>,
@@ -511,7 +511,7 @@ pub struct Page {
     pub number: usize,
     /// Pictures in the file.
     pub of: usize,
-    /// Reduced copies and masks before it, which were passed over.
+    /// Reduced copies and masks before it, which were skipped.
     pub skipped: usize,
 }
 
@@ -530,12 +530,12 @@ pub struct Detection {
     /// Which picture of the file was measured, where the file has several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub page: Option<Page>,
-    /// What the picture shows of how it was taken and processed.
+    /// Properties of the picture that result from exposure and processing.
     #[serde(default)]
     pub picture: PictureReport,
     /// What was measured on, where it is a sensor's own samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measured: Option<Measured>,
+    pub measured: Option<SampleSource>,
     /// The targets, from top to bottom.
     pub targets: Vec<Target>,
     /// How many blobs were rejected, by reason.

@@ -20,7 +20,7 @@ use crate::project::Camera;
 
 /// A circle in the camera frame, object units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Circle {
+pub struct TargetCircle {
     /// Centre; z < 0 lies in front of the camera.
     pub centre: Vector3<f64>,
     /// Unit normal; its sign does not matter.
@@ -30,8 +30,8 @@ pub struct Circle {
 }
 
 /// Centre of the image ellipse minus image of the centre, in distortion-free coordinates divided by the principal distance
-/// (x right, y up). None when the circle is not wholly in front of the camera or is seen edge-on.
-pub fn ideal(circle: &Circle) -> Option<[f64; 2]> {
+/// (x right, y up). `None` if the circle is not wholly in front of the camera or is seen edge-on.
+pub fn ideal(circle: &TargetCircle) -> Option<[f64; 2]> {
     let centre = image_centre(circle)?;
     let p = circle.centre;
     let eccentricity = [centre[0] + p.x / p.z, centre[1] + p.y / p.z];
@@ -39,7 +39,7 @@ pub fn ideal(circle: &Circle) -> Option<[f64; 2]> {
 }
 
 /// The same in pixels (u right, v down), with the camera's distortion: subtract it from a measured ellipse centre.
-pub fn pixels(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
+pub fn pixels(camera: &Camera, circle: &TargetCircle) -> Option<[f64; 2]> {
     if camera.interior.model().is_wide {
         return of_rim(camera, circle);
     }
@@ -50,7 +50,7 @@ pub fn pixels(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
 }
 
 /// The same from the ellipse through the image of the rim: a wide camera has no image plane that all rays meet.
-fn of_rim(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
+fn of_rim(camera: &Camera, circle: &TargetCircle) -> Option<[f64; 2]> {
     let n = circle.normal.try_normalize(0.0)?;
     let [u0, v0] = pixel_from_camera_point(camera, circle.centre)?;
     // Seen edge-on there is no ellipse.
@@ -72,7 +72,7 @@ fn of_rim(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
 }
 
 /// Centre of the image ellipse as the ray (x, y, -1).
-fn image_centre(circle: &Circle) -> Option<[f64; 2]> {
+fn image_centre(circle: &TargetCircle) -> Option<[f64; 2]> {
     let (p, n) = (circle.centre, circle.normal.try_normalize(0.0)?);
     let r = circle.diameter / 2.0;
     // the nearest and farthest point of the rim in depth
@@ -92,8 +92,8 @@ fn image_centre(circle: &Circle) -> Option<[f64; 2]> {
 }
 
 /// The two circles of a diameter that a measured ellipse can be the image of, in the camera frame; for an upright view
-/// they are one. None when the camera has no principal distance or the target is no ellipse.
-pub fn circles(camera: &Camera, target: &Target, diameter: f64) -> Option<[Circle; 2]> {
+/// they are one. `None` if the camera has no principal distance or the target is no ellipse.
+pub fn circles(camera: &Camera, target: &Target, diameter: f64) -> Option<[TargetCircle; 2]> {
     if !(diameter > 0.0 && diameter.is_finite()) {
         return None;
     }
@@ -115,7 +115,7 @@ pub fn circles(camera: &Camera, target: &Target, diameter: f64) -> Option<[Circl
         // with the true scale the ray's form is -(r n·ray)², and that of the middle axis (distance n·ray)² = l2
         let squared = -ray.dot(&(q * ray)) / l2;
         let distance = diameter / 2.0 / squared.sqrt();
-        let found = Circle { centre: ray * distance, normal, diameter };
+        let found = TargetCircle { centre: ray * distance, normal, diameter };
         (squared > 0.0 && distance.is_finite()).then_some(found)
     };
     Some([circle(1.0)?, circle(-1.0)?])
@@ -157,8 +157,8 @@ mod tests {
     use super::*;
     use crate::project::Interior;
 
-    fn tilted() -> Circle {
-        Circle {
+    fn tilted() -> TargetCircle {
+        TargetCircle {
             centre: Vector3::new(120.0, -80.0, -900.0),
             normal: Vector3::new(0.5, 0.3, 0.8).normalize(),
             diameter: 60.0,
@@ -166,7 +166,7 @@ mod tests {
     }
 
     /// Rim points of the circle as rays (x, y, -1).
-    fn image(circle: &Circle) -> Vec<[f64; 3]> {
+    fn image(circle: &TargetCircle) -> Vec<[f64; 3]> {
         let e1 = circle.normal.cross(&Vector3::x()).normalize();
         let e2 = circle.normal.cross(&e1);
         (0..36)
@@ -186,10 +186,10 @@ mod tests {
     #[test]
     fn the_unit_of_length_does_not_matter() {
         let circle =
-            Circle { centre: Vector3::new(0.3, -0.2, -1.5), normal: Vector3::new(0.7, 0.1, 0.6), diameter: 0.02 };
+            TargetCircle { centre: Vector3::new(0.3, -0.2, -1.5), normal: Vector3::new(0.7, 0.1, 0.6), diameter: 0.02 };
         let expected = ideal(&circle).expect("seen");
         for unit in [1e-3, 1e3, 1e6] {
-            let scaled = Circle { centre: circle.centre * unit, diameter: circle.diameter * unit, ..circle };
+            let scaled = TargetCircle { centre: circle.centre * unit, diameter: circle.diameter * unit, ..circle };
             let got = ideal(&scaled).expect("seen");
             assert!((0..2).all(|k| (got[k] - expected[k]).abs() < 1e-12), "{unit}: {got:?} {expected:?}");
         }
@@ -207,9 +207,9 @@ mod tests {
 
     #[test]
     fn it_vanishes_in_the_upright_view_and_grows_with_the_square_of_the_diameter() {
-        let upright = Circle { normal: Vector3::z(), ..tilted() };
+        let upright = TargetCircle { normal: Vector3::z(), ..tilted() };
         assert!(ideal(&upright).unwrap().iter().all(|e| e.abs() < 1e-12));
-        let [small, large] = [10.0, 20.0].map(|diameter| ideal(&Circle { diameter, ..tilted() }).unwrap()[0]);
+        let [small, large] = [10.0, 20.0].map(|diameter| ideal(&TargetCircle { diameter, ..tilted() }).unwrap()[0]);
         assert!((large / small - 4.0).abs() < 1e-2);
     }
 
@@ -245,9 +245,9 @@ mod tests {
 
     #[test]
     fn a_circle_behind_the_camera_or_edge_on_has_none() {
-        let behind = Circle { centre: Vector3::new(0.0, 0.0, 10.0), ..tilted() };
+        let behind = TargetCircle { centre: Vector3::new(0.0, 0.0, 10.0), ..tilted() };
         assert_eq!(ideal(&behind), None);
-        let edge_on = Circle { centre: Vector3::new(0.0, 0.0, -900.0), normal: Vector3::x(), diameter: 10.0 };
+        let edge_on = TargetCircle { centre: Vector3::new(0.0, 0.0, -900.0), normal: Vector3::x(), diameter: 10.0 };
         assert_eq!(ideal(&edge_on), None);
     }
 }

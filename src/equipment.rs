@@ -1,6 +1,6 @@
 //! Equipment for several projects: cameras with their calibrations, scale bars with their certificates.
 //!
-//! It is one JSON document, `"format": "sightline-equipment"`, version 1. A camera is known again by what photos say of it
+//! It is one JSON document, `"format": "sightline-equipment"`, version 1. A camera is recognised by the metadata of photos
 //! ([`KnownCamera::took`]); a calibration enters a project held, observed with its standard errors, or only as initial values
 //! ([`Calibration::apply`]). A scale bar whose two ends are measured gives its distance ([`bars_in`]).
 
@@ -18,6 +18,7 @@ pub use cameras::{Calibration, KnownCamera, Use};
 
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::limits;
+use crate::project::{RemovedFields, count_entries, note_removed};
 
 /// Name of the format.
 pub const FORMAT: &str = "sightline-equipment";
@@ -27,7 +28,7 @@ pub const VERSION: u32 = 1;
 /// Bytes from the beginning of a file in which its format is looked for.
 pub const HEAD: usize = 4096;
 
-/// What a length in one unit is multiplied by to be in another; none where one of them is not known and they differ.
+/// Factor from one unit of length to another; `None` if one of them is not known and they differ.
 pub fn unit_factor(from: &str, to: &str) -> Option<f64> {
     crate::units::factor(from, to).ok()
 }
@@ -53,7 +54,7 @@ impl Default for Equipment {
     }
 }
 
-/// What joining two lists of equipment changed.
+/// Changes made by merging two lists of equipment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Joined {
     /// Cameras that were not there.
@@ -76,7 +77,7 @@ impl Equipment {
     /// From its JSON.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where it is no equipment, of a newer version, too long, or holds what [`validate`](Self::validate) refuses.
+    /// [`Error::Invalid`] if it is not equipment, of a newer version, too long, or holds what [`validate`](Self::validate) refuses.
     pub fn read(text: &str) -> Result<Self> {
         #[derive(Deserialize)]
         struct Head {
@@ -97,10 +98,32 @@ impl Equipment {
         if head.version != VERSION {
             return Err(invalid(Reason::EquipmentVersion { version: head.version }));
         }
-        let read: Self = serde_json::from_str(text)
+        let mut read: Self = serde_json::from_str(text)
             .map_err(|error| invalid(Reason::DamagedDocument { message: shortened(&error.to_string()) }))?;
+        read.note_removed_fields(text);
         read.validate()?;
         Ok(read)
+    }
+
+    /// Names the fields of calibrations that the format no longer has in their origin.
+    fn note_removed_fields(&mut self, json: &str) {
+        #[derive(Default, Deserialize)]
+        #[serde(default)]
+        struct Fields {
+            cameras: Vec<Fields>,
+            calibrations: Vec<Fields>,
+            colours: serde_json::Value,
+        }
+        if !json.contains("\"colours\"") {
+            return;
+        }
+        let fields: Fields = serde_json::from_str(json).unwrap_or_default();
+        for (camera, of_camera) in self.cameras.iter_mut().zip(fields.cameras) {
+            for (calibration, removed) in camera.calibrations.iter_mut().zip(of_camera.calibrations) {
+                let any = usize::from(count_entries(&removed.colours) > 0);
+                note_removed(&mut calibration.origin, RemovedFields::OF_CAMERAS, any);
+            }
+        }
     }
 
     /// Its JSON, indented for people.

@@ -1,6 +1,6 @@
 //! Errors as data: a stable code, the values of the message, and the place.
 //!
-//! The engine speaks English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
+//! The engine writes English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
 //! user's language. A variant is never renamed, since its code is part of the JavaScript face.
 
 mod degeneracy;
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 pub use degeneracy::Degeneracy;
 pub use picture_kind::PictureKind;
-pub use reason::{Expected, Lack, Names, Number, PhotoModelerPart, Reason, Thing};
+pub use reason::{Expected, Lack, Names, Number, OtherReason, Reason, Thing};
 
 /// Maximum number of characters of a quoted user text.
 const QUOTED: usize = 120;
@@ -181,7 +181,7 @@ pub enum Error {
     },
     /// The file is damaged or cut short.
     BrokenImage {
-        /// What is wrong with it.
+        /// Kind of damage.
         reason: Damage,
         /// Place.
         at: Place,
@@ -233,7 +233,7 @@ pub enum Error {
     },
     /// The project lacks the data for the computation.
     Empty {
-        /// What is missing.
+        /// The missing kind of items.
         what: Lack,
     },
     /// Initial values are missing.
@@ -503,7 +503,7 @@ impl fmt::Display for Error {
             }
             Self::Empty { what } => write!(f, "the project has no {what} to work on")?,
             Self::MissingInitialValues { photos, points, cameras } => {
-                f.write_str("initial values are missing; orient the project first, or give them:")?;
+                f.write_str("initial values are missing: orient the project first, or give values for")?;
                 for (kind, names) in [("photos", photos), ("points", points), ("cameras", cameras)] {
                     if !names.is_empty() {
                         write!(f, " {kind} {};", listed(names))?;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 pub use makers::{Aberration, LensCorrection, Setting};
 
-/// What the EXIF block says; everything is absent where it is absent or nonsense.
+/// Contents of the EXIF block; values that are absent or invalid are `None`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PhotoInfo {
@@ -28,7 +28,7 @@ pub struct PhotoInfo {
     pub orientation: u8,
     /// When it was taken, as `YYYY-MM-DDThh:mm:ss`, local time of the camera.
     pub date: Option<String>,
-    /// Corrections of the lens that the maker's note speaks of.
+    /// Corrections of the lens that the maker's note lists.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub corrections: Vec<LensCorrection>,
 }
@@ -69,7 +69,7 @@ pub fn read(bytes: &[u8]) -> PhotoInfo {
     }
 }
 
-/// The EXIF block, a TIFF file without a picture, that says the same; orientation 1 is not written.
+/// The equivalent EXIF block, a TIFF file without a picture; orientation 1 is not written.
 pub fn write(info: &PhotoInfo) -> Vec<u8> {
     let ascii = |text: &String| Value::Ascii(vec![text.clone().into_bytes()]);
     // Ten-thousandths: fine enough for what is engraved, and within 32 bits for every sensor that exists.
@@ -113,7 +113,7 @@ fn info(block: &Exif) -> PhotoInfo {
     }
 }
 
-/// What the maker's note says of corrections, where the block has one.
+/// Corrections listed in the maker's note, if there is one.
 fn corrections(block: &Exif) -> Vec<LensCorrection> {
     let note = block.get_field(Tag::MakerNote, In::PRIMARY).map(|field| &field.value);
     let Some(Value::Undefined(_, place)) = note else { return Vec::new() };
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn the_maker_s_note_is_found_in_the_block() {
-        // one entry of Sony's: distortion is corrected where the camera knows the lens
+        // one entry of Sony: distortion is corrected if the camera knows the lens
         let note = b"SONY DSC \0\0\0\0\x01\x20\x13\0\x04\0\0\0\x01\0\0\0\x02\0\0\0\0".to_vec();
         let block = exif_block(vec![(Tag::Make, ascii("SONY")), (Tag::MakerNote, Value::Undefined(note, 0))]);
         let (aberration, setting) = (Aberration::Distortion, Setting::Auto);

@@ -171,14 +171,14 @@ impl Sample for u16 {
 
 /// A borrowed picture of one kind of sample, for the algorithms.
 #[derive(Clone, Copy)]
-pub(crate) struct Plane<'a, T> {
+pub(crate) struct SampleView<'a, T> {
     pub width: usize,
     pub height: usize,
     samples: &'a [T],
 }
 
-impl<'a, T: Sample> Plane<'a, T> {
-    /// The samples are as many as the size says: a [`GreyView`] has checked it.
+impl<'a, T: Sample> SampleView<'a, T> {
+    /// The number of samples agrees with the size: a [`GreyView`] has checked it.
     pub fn new(width: usize, height: usize, samples: &'a [T]) -> Self {
         debug_assert_eq!(width * height, samples.len());
         Self { width, height, samples }
@@ -234,7 +234,7 @@ impl<'a, T: Sample> Plane<'a, T> {
         (cells.map(i32x4::round_float), i32x4::new(levels).round_float(), bytemuck::cast(in_x & in_y))
     }
 
-    /// Bilinear samples at four places, given in 2^-16 pixels from the centre of the first pixel; 0 where they lie further than
+    /// Bilinear samples at four places, given in 2^-16 pixels from the centre of the first pixel; 0 if they lie further than
     /// that from the last pixels.
     #[inline(always)]
     pub fn bilinear_four(&self, x: i32x4, y: i32x4) -> f32x4 {
@@ -312,7 +312,7 @@ impl Grey {
     /// Borrows the picture.
     ///
     /// # Errors
-    /// [`Error::Invalid`] when the number of samples does not fit the size.
+    /// [`Error::Invalid`] if the number of samples does not fit the size.
     pub fn view(&self) -> Result<GreyView<'_>> {
         let samples = match &self.samples {
             Samples::U8(s) => SamplesView::U8(s),
@@ -331,7 +331,7 @@ mod tests {
 
     #[test]
     fn a_pixel_centre_samples_its_own_level_and_the_border_is_continued() {
-        let plane = Plane::new(3, 2, &[10u8, 20, 40, 50, 60, 80]);
+        let plane = SampleView::new(3, 2, &[10u8, 20, 40, 50, 60, 80]);
         assert_eq!(plane.sample(1.5, 0.5), 20.0);
         assert_eq!(plane.sample(2.0, 1.0), (20.0 + 40.0 + 60.0 + 80.0) / 4.0);
         assert_eq!(plane.sample(-5.0, -5.0), 10.0);

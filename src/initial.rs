@@ -1,8 +1,8 @@
-//! Initial values: closed-form and linear solutions, each refined by least squares where the doc says so.
+//! Initial values: closed-form and linear solutions, each refined by least squares where its documentation states it.
 //!
 //! Image points are given in the form each function names: *ideal coordinates* are distortion-free and divided by the
 //! principal distance, so that (x, y, -1) is the ray in the camera frame; *photo coordinates* are x right, y up in
-//! photo units. Nothing here knows names: what cannot be computed is a [`Degeneracy`], which the caller ties to its
+//! photo units. Names are not used here: a failure is a [`Degeneracy`], which the caller relates to its
 //! photos and points.
 
 pub mod dlt;
@@ -23,9 +23,9 @@ use nalgebra::{Matrix3, Vector3};
 pub use crate::error::Degeneracy;
 pub use pose::Pose;
 
-/// Centroid and principal axes of a set of points: what decides whether it spans a volume, a plane or a line.
+/// Centroid and principal axes of a set of points; they decide whether it spans a volume, a plane or a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Spread {
+pub struct PrincipalAxes {
     /// Mean of the points.
     pub centroid: Vector3<f64>,
     /// Unit principal axes as columns, longest extent first, right-handed.
@@ -37,7 +37,7 @@ pub struct Spread {
 /// Extent ratio below which a direction counts as missing in a set given without noise of its own.
 pub(crate) const FLAT: f64 = 1e-6;
 
-impl Spread {
+impl PrincipalAxes {
     /// Principal axes of the points' scatter about their centroid.
     ///
     /// # Errors

@@ -20,9 +20,10 @@
 //! use sightline::detection::{Codes, DetectOptions};
 //! use sightline::matching::{PhotoTargets, name_coded};
 //! use sightline::orient::orient;
-//! use sightline::{decode, detect, sample};
+//! use sightline::{decode, detect};
+//! use sightline_lab::sample;
 //!
-//! // Cameras, photos and control points: what is known before anything is measured.
+//! // Cameras, photos and control points: given before anything is measured.
 //! let mut project = sample::project()?;
 //!
 //! // Targets, photo by photo.
@@ -34,13 +35,13 @@
 //!     photos.push(PhotoTargets { photo: photo.id.clone(), targets });
 //! }
 //!
-//! // Identities: a code is a name.
+//! // Point names: the number of a code is the name of its point.
 //! let coded = name_coded(&photos, None);
 //! let known: Vec<_> = project.points.iter().map(|point| point.id.clone()).collect();
 //! project.points.extend(coded.points.into_iter().filter(|point| !known.contains(&point.id)));
 //! project.observations.extend(coded.observations);
 //!
-//! // Initial values, then everything at once.
+//! // Initial values, then the bundle adjustment.
 //! let oriented = orient(&project)?;
 //! let adjustment = adjust(&oriented.project, &AdjustOptions::default(), &mut |_| true)?;
 //!
@@ -65,9 +66,7 @@ pub mod detection;
 pub mod eccentricity;
 pub mod equipment;
 pub mod error;
-pub mod exchange;
 pub mod exif;
-pub mod experiments;
 pub mod features;
 pub mod film;
 pub mod image;
@@ -75,22 +74,14 @@ pub mod initial;
 pub mod limits;
 pub mod matching;
 pub mod monitoring;
-pub mod network;
 pub mod noise;
 pub mod orient;
-pub mod plan;
 pub mod plausibility;
 pub mod project;
-pub mod render;
-pub mod report;
 pub mod ring_code;
 pub mod rotation;
-pub mod sample;
-pub mod scene;
 pub mod sensor;
-pub mod sheets;
 pub mod statistics;
-pub mod teaching;
 pub mod tiles;
 pub mod units;
 

@@ -8,16 +8,16 @@ pub const PIXELS: u64 = 250_000_000;
 /// Largest buffer a decoder may ask for, in bytes.
 pub const DECODED: u64 = 1 << 31;
 
-/// Most bytes that a document may have when unpacked.
+/// Maximum number of bytes that a document may have when unpacked.
 pub const DOCUMENT: u64 = 512 << 20;
 
-/// Most bytes that a document may take when read: about two million observations with their statistics.
+/// Maximum number of bytes that a document may take when read: about two million observations with their statistics.
 pub const PARSED: u64 = 1 << 30;
 
-/// Most bytes that all photos of a project file may have.
+/// Maximum number of bytes that all photos of a project file may have.
 pub const PHOTOS: u64 = 2 << 30;
 
-/// Most entries of a project file.
+/// Maximum number of entries of a project file.
 pub const ENTRIES: usize = 20_000;
 
 /// Photos are compressed already: those of a project file unpack to no more than so many times the file, and this much.
@@ -25,19 +25,19 @@ pub const PHOTOS_RATIO: u64 = 20;
 /// See [`PHOTOS_RATIO`].
 pub const PHOTOS_FREE: u64 = 64 << 20;
 
-/// Most targets on a form of a plan: the page draws each of them in every view.
+/// Maximum number of targets on a form of a plan: the page draws each of them in every view.
 pub const TARGETS: usize = 10_000;
 
-/// Most targets times stations of a plan.
+/// Maximum number of targets times stations of a plan.
 pub const RAYS: usize = 1_000_000;
 
-/// Most sheets of targets that are made at once.
+/// Maximum number of sheets of targets that are made at once.
 pub const SHEETS: usize = 2000;
 
-/// Most targets that are printed at once, more than any family has codes: each takes some three kilobytes with its marks and its label.
+/// Maximum number of targets that are printed at once, more than any family has codes: each takes some three kilobytes with its marks and its label.
 pub const PRINTED: usize = 30_000;
 
-/// Most bytes of equipment: some hundred thousand calibrations.
+/// Maximum number of bytes of equipment: some hundred thousand calibrations.
 pub const EQUIPMENT_BYTES: usize = 64 << 20;
 
 /// Bytes that a document takes when read, at most: every object and list as large as the largest kind of entry with the room that

@@ -5,6 +5,7 @@ mod coded;
 mod displaced;
 mod epipolar;
 mod epipolar_line;
+mod free;
 mod grid;
 mod gross;
 mod join;
@@ -21,13 +22,14 @@ use serde::{Deserialize, Serialize};
 
 pub use coded::{Coded, name_coded};
 pub use displaced::{PhotoVector, PhotoVectors, displaced};
+pub use free::{MatchOptions, Matching};
 pub use grid::{
     Board, BoardKind, GridNaming, GridOptions, GridOrientation, NamedGrid, Unnamed, UnnamedReason, name_grid,
 };
 pub use gross::{Cleaned, disagreeing, without_gross_errors};
 pub use predict::{EpipolarLine, PhotoPrediction, PredictOptions, Prediction, predict};
+pub use rounds::match_uncoded;
 pub use snap::{Mark, Snapped, Unsnapped, UnsnappedReason, snap};
-pub use uncoded::{MatchOptions, Matching, match_uncoded};
 
 use crate::detection::Target;
 use crate::project::{Observation, Sigma};
@@ -75,7 +77,7 @@ pub enum Doubt {
     Disagrees,
 }
 
-/// A priori standard error of an image measurement that carries none of its own, in pixels.
+/// A priori standard error of an image measurement without its own, in pixels.
 const DEFAULT_SIGMA_PX: f64 = 0.1;
 
 /// The target's own standard errors as the observation's a priori ones.

@@ -2,7 +2,7 @@
 //!
 //! Epochs are projects or lists of points with standard errors. Every epoch is compared with the first and with its predecessor,
 //! by the coordinates of separate adjustments: d = x₂ - x₁, Q_d = Q₁ + Q₂. With the method `joint` the stable reference points
-//! of a pair get one set of coordinates after that ([`Method::Joint`]). The steps, each with its test:
+//! have one set of coordinates after that, in one adjustment of all epochs where cameras are shared ([`ComparisonMethod::Joint`]). The steps, each with its test:
 //!
 //! 1. equality of the variance factors ([`Pair::variance_test`]);
 //! 2. S-transformation of both epochs to the datum of the reference points, the scale kept where both have one and its difference tested;
@@ -16,6 +16,7 @@
 //! Sources: H. Pelzer, Zur Analyse geodätischer Deformationsmessungen, DGK C 164, 1971; W. Niemeier, Ausgleichungsrechnung, 2008;
 //! A. Chrzanowski and Y. Q. Chen, FIG 1981-1986; W. Baarda, S-transformations and criterion matrices, 1973.
 
+mod bundle;
 mod congruence;
 pub(crate) mod covariance;
 mod date;
@@ -25,7 +26,7 @@ mod groups;
 mod joint;
 mod judgement;
 mod pair;
-pub(crate) mod planned;
+pub mod planned;
 mod points;
 mod request;
 mod result;
@@ -37,13 +38,14 @@ use std::collections::{BTreeSet, HashMap};
 
 pub use date::days;
 pub use request::{
-    ControlUse, Correction, DatumChoice, Epoch, Group, GroupModel, Limits, ListedCovariance, ListedPoint, Method,
-    Options, Thresholds, VarianceChoice,
+    ComparisonMethod, ControlUse, Correction, DatumChoice, Epoch, Group, GroupModel, Limits, ListedCovariance,
+    ListedPoint, Options, Thresholds, VarianceChoice,
 };
 pub use result::{
-    Detectable, Displacement, Ellipsoid, EpochNote, GroupError, GroupMovement, GroupResidual, LeftOut, LeftOutReason,
-    Monitoring, Outcome, Pair, PairNote, PointRole, ReferenceFrom, RobustDatum, ScaleDifference, Series, SeriesValue,
-    State, Step, Test, Tested, UsedEpoch, VarianceUsed,
+    Detectable, Displacement, EliminationStep, Ellipsoid, EpochNote, GroupError, GroupMovement, GroupResidual,
+    JointAdjustment, LeftOutPoint, LeftOutPointReason, Monitoring, Outcome, Pair, PairNote, PointRole, ReferenceFrom,
+    RobustDatum, ScaleDifference, Series, SeriesValue, SharedCamera, Test, Tested, ThresholdState, UsedEpoch,
+    VarianceUsed,
 };
 
 use epoch::{Prepared, at, prepared};
@@ -52,7 +54,7 @@ use pair::Input;
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::units::Unit;
 
-/// Reference points at least: with three nothing is left to tell which of them has moved.
+/// Minimum number of reference points: with three, nothing shows which of them has moved.
 pub const LEAST: usize = 4;
 /// Reference points at most: their weights are a matrix of three rows each, which is inverted once a pair.
 pub const MOST: usize = 500;
@@ -60,11 +62,11 @@ pub const MOST: usize = 500;
 const EPOCHS: usize = 520;
 
 /// State of a displacement by its length.
-fn state_of(length: f64, limits: &Limits) -> State {
+fn state_of(length: f64, limits: &Limits) -> ThresholdState {
     match length {
-        length if length >= limits.alarm => State::Alarm,
-        length if length >= limits.warning => State::Warning,
-        _ => State::Quiet,
+        length if length >= limits.alarm => ThresholdState::Alarm,
+        length if length >= limits.warning => ThresholdState::Warning,
+        _ => ThresholdState::Quiet,
     }
 }
 
@@ -72,7 +74,7 @@ fn state_of(length: f64, limits: &Limits) -> State {
 ///
 /// # Errors
 /// Whatever adjusting a project finds. [`Error::Invalid`] with the place `epochs[k]` and the reason: fewer than two epochs, an epoch that
-/// is no project and no list, did not converge, has no standard errors, another unit, a matrix that is no covariance, no common points, is
+/// is neither a project nor a list, did not converge, has no standard errors, another unit, an invalid covariance matrix, no common points, is
 /// mirrored or unlike the first; fewer than four common reference points, or all on a line; options out of range. [`Error::Unknown`] for
 /// named points that no epoch has, [`Error::Duplicate`] for names that occur twice.
 pub fn compare_epochs(epochs: &[Epoch], options: &Options) -> Result<Monitoring> {
@@ -115,22 +117,42 @@ pub fn compare_epochs_watched(
     }
     let with_first = (1..all.len()).map(|k| (0, k));
     let with_predecessor = (2..all.len()).map(|k| (k - 1, k));
-    let one = |(from, to): (usize, usize)| {
+    let one = |(from, to): (usize, usize), joint: Option<&bundle::Bundle>| {
+        let joint = joint.map(|bundle| (bundle, [from, to]));
         let left_out = if from == 0 { carried[to].left_out.clone() } else { Vec::new() };
         let reference = given.as_ref().map(|(ids, from)| (&ids[..], *from));
         let renamed = if from == 0 { carried[to].renamed.clone() } else { HashMap::new() };
         let to = (to, &all[to]);
-        pair::compared(Input { from: &all[from], to, reference, options, renamed: &renamed, left_out })
+        pair::compared(Input { from: &all[from], to, reference, options, renamed: &renamed, left_out, joint })
     };
+    let all_together = bundle::wanted(&all, options)?;
+    let places: Vec<(usize, usize)> = with_first.chain(with_predecessor).collect();
     let mut pairs = Vec::new();
-    for pair in with_first.chain(with_predecessor) {
-        pairs.push(one(pair)?);
+    for &pair in &places {
+        pairs.push(one(pair, None)?);
         step()?;
     }
-    let (series, series_datum) = series::series(&all, &pairs, options);
+    let mut joint = None;
+    if all_together {
+        let stable = series::stable_in_all(&pairs[..all.len() - 1]);
+        let points = bundle::points(&all, &stable);
+        if points > bundle::MOST {
+            bundle::refused(points, options)?;
+            let note = PairNote::TooManyTogether { points, limit: bundle::MOST };
+            pairs.iter_mut().for_each(|pair| pair.notes.push(note.clone()));
+        } else if stable.len() >= LEAST {
+            let renamed: Vec<&HashMap<String, String>> = carried.iter().map(|c| &c.renamed).collect();
+            joint = Some(bundle::adjusted(&all, &renamed, &stable, options)?);
+            pairs = places.iter().map(|&pair| one(pair, joint.as_ref())).collect::<Result<_>>()?;
+        } else {
+            pairs.iter_mut().for_each(|pair| pair.notes.push(PairNote::NotJoint));
+        }
+    }
+    let (series, series_datum) = series::series(&all, &pairs, joint.as_ref(), options);
     step()?;
     let epochs = all.into_iter().map(|epoch| epoch.used).collect();
-    Ok(Monitoring { method: options.method, unit, axes, epochs, pairs, series, series_datum })
+    let joint = joint.map(|bundle| bundle.told);
+    Ok(Monitoring { method: options.method, joint, unit, axes, epochs, pairs, series, series_datum })
 }
 
 /// Options and names.

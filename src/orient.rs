@@ -3,8 +3,8 @@
 //! 1. Known points orient what they can: the principal distance where it is missing, then photo by photo by resection.
 //! 2. Without them, a first pair is oriented from image points alone.
 //! 3. Photo by photo the rest follows: intersect, resect, refine by a small bundle adjustment, leave out what disagrees.
-//! 4. A model of its own is carried into the system of the known points, or given a scale and a place.
-//! 5. What was left out and misses by less than a wrong name would is adjusted with the rest once more; photos that may stand in the
+//! 4. A model of its own is transformed into the system of the known points, or given a scale and a place.
+//! 5. What was left out and misses by less than a wrong name would is adjusted with the rest once more; photos that may be in the
 //!    second of two poses are oriented anew.
 //!
 //! What is given stays as it is: orientations and coordinates bit by bit, camera parameters unless the project leaves
@@ -13,6 +13,7 @@
 
 mod absolute;
 mod ambiguity;
+mod ambiguous_orientation;
 mod aside;
 mod block;
 mod bridge;
@@ -28,7 +29,6 @@ mod questions;
 mod readmission;
 mod refine;
 mod remaining;
-mod second_look;
 mod seed;
 mod tied;
 mod ties;
@@ -39,9 +39,9 @@ use serde::{Deserialize, Serialize};
 
 pub use note::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
 
-use absolute::Frame;
+use absolute::DatumSource;
 use aside::set_aside;
-use block::{Block, longer_side, principal_distance_px, set_principal_distance_px};
+use block::{OrientationBlock, longer_side, principal_distance_px, set_principal_distance_px};
 use growth::grow;
 use models::Models;
 use refine::{Freedom, distance_sigmas_px, refine};
@@ -52,32 +52,34 @@ use crate::plausibility::{cameras, one_station};
 use crate::project::{Parameter, Project, Role};
 use crate::rotation;
 
-/// A project with initial values, and what there is to say about them.
+/// A project with initial values, and notes about them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Oriented {
     /// The project, filled in as far as possible.
     pub project: Project,
-    /// What was assumed, and what could not be found and why.
+    /// Assumptions, and items that could not be determined, with the reason.
     pub notes: Vec<Note>,
 }
 
 /// Share of the measurements that agree where given coordinates orient the photos rightly.
 const MOSTLY: f64 = 0.7;
-/// Noise over the a priori sigma at which a network is believed.
+/// Maximum noise over the a priori sigma of an accepted network.
 const FINE_SIGMAS: f64 = 3.0;
 
 /// Fills in every initial value that can be found.
 ///
 /// # Errors
 /// [`Error::Empty`] without photos or measurements; [`Error::Unknown`], [`Error::Duplicate`], [`Error::Invalid`] where
-/// the document is inconsistent. A project that cannot be oriented is no error: the notes say what is missing.
+/// the document is inconsistent. A project that cannot be oriented is not an error: the notes list what is missing.
 pub fn orient(project: &Project) -> Result<Oriented> {
     project.validate()?;
     let doubts = cameras::implausible(project);
     let (given, believed) = (project, cameras::without(project, &doubts));
     let project = believed.as_ref().unwrap_or(project);
-    let mut start = Block::new(project);
-    for (what, missing) in [(Lack::Photos, project.photos.is_empty()), (Lack::Observations, start.sights.is_empty())] {
+    let mut start = OrientationBlock::new(project);
+    for (what, missing) in
+        [(Lack::Photos, project.photos.is_empty()), (Lack::Observations, start.observations.is_empty())]
+    {
         if missing {
             return Err(Error::Empty { what });
         }
@@ -92,14 +94,14 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     let sources = give_principal_distances(&mut start);
     let mut attempt = Attempt::new(project, &start, &start.adjustable, &sources, true);
     if !attempt.settled && start.given_px.iter().any(Option::is_some) {
-        // A given principal distance is information: a rough model of few photos may have carried it away.
+        // A given principal distance is information: a rough model of few photos may have changed it wrongly.
         let free: Vec<bool> = start.adjustable.iter().zip(&start.given_px).map(|(a, px)| *a && px.is_none()).collect();
         let again = Attempt::new(project, &start, &free, &sources, true);
         if again.settled && 2 * again.block.oriented() >= attempt.block.oriented() {
             attempt = again;
         }
     }
-    if attempt.frame == Some(Frame::Known) && !attempt.agrees() {
+    if attempt.frame == Some(DatumSource::Known) && !attempt.agrees() {
         // Given coordinates that contradict each other orient photos in contradicting ways: the photos by themselves tell which fit.
         let again = Attempt::new(project, &start, &start.adjustable, &sources, false);
         if again.block.agreeing() > attempt.block.agreeing() {
@@ -133,7 +135,7 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     set_aside(&mut project, &block);
     notes.extend(note::of_control(&project, frame));
     notes.extend(doubles);
-    if frame == Some(Frame::Own) {
+    if frame == Some(DatumSource::Own) {
         aside::set_control_aside(&mut project);
         // Directions given in another system mean nothing in this one.
         project.points.iter_mut().for_each(|point| point.normal = None);
@@ -141,11 +143,11 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     Ok(Oriented { project, notes })
 }
 
-/// What became of one way to orient a project.
+/// Result of one method of orienting a project.
 struct Attempt {
-    block: Block,
-    apart: Vec<Block>,
-    frame: Option<Frame>,
+    block: OrientationBlock,
+    apart: Vec<OrientationBlock>,
+    frame: Option<DatumSource>,
     scaled: bool,
     /// Whether the project it makes can be adjusted.
     settled: bool,
@@ -154,14 +156,14 @@ struct Attempt {
 impl Attempt {
     /// Whether most measurements agree.
     fn agrees(&self) -> bool {
-        self.block.agreeing() as f64 >= MOSTLY * self.block.sights.len() as f64
+        self.block.agreeing() as f64 >= MOSTLY * self.block.observations.len() as f64
     }
 
     /// Orients what can be oriented while only the principal distances of the cameras in `free` may change; in the end all may
     /// that may be changed at all. Begins with photos of known points, if `by_known`, or else with the photos by themselves.
     fn new(
         project: &Project,
-        start: &Block,
+        start: &OrientationBlock,
         free: &[bool],
         sources: &[Option<DistanceSource>],
         by_known: bool,
@@ -173,9 +175,9 @@ impl Attempt {
         let Models { mut block, frame, mut apart } = models;
         let mut frame = frame;
         let mut scaled = true;
-        if frame == Some(Frame::Own) {
+        if frame == Some(DatumSource::Own) {
             (frame, scaled) = absolute::to_own(&mut block, project, start);
-        } else if frame == Some(Frame::GivenPhotos) {
+        } else if frame == Some(DatumSource::GivenPhotos) {
             let larger = (0..apart.len()).find(|&k| apart[k].oriented() > block.oriented());
             if let Some(k) = larger {
                 let mut model = apart.remove(k);
@@ -183,10 +185,10 @@ impl Attempt {
                 block = model;
             }
         }
-        if frame == Some(Frame::Known) {
+        if frame == Some(DatumSource::Known) {
             block.anchor();
         }
-        if frame != Some(Frame::Own) {
+        if frame != Some(DatumSource::Own) {
             grow(&mut block);
         }
         block.adjustable.clone_from(&start.adjustable);
@@ -194,28 +196,28 @@ impl Attempt {
         block.intersect_new(0.0);
         block.review();
         verify(&mut block);
-        let as_project = |block: &Block| {
+        let as_project = |block: &OrientationBlock| {
             let mut trial = filled(project, block);
             set_aside(&mut trial, block);
             trial
         };
-        let mut borne = vec![false; block.views.len()];
-        let mut looked = borne.clone();
+        let mut accepted = vec![false; block.photos.len()];
+        let mut looked = accepted.clone();
         let mut settled;
         loop {
             tied::release(&mut block);
             readmission::readmit(&mut block);
             settled = trial::settle(&mut block, as_project);
             let trial = as_project(&block);
-            if evidence::withdraw(&mut block, &trial, &borne) {
+            if evidence::withdraw(&mut block, &trial, &accepted) {
                 block.review();
                 continue;
             }
             let split = ties::split(&mut block, &trial);
             if !split.is_empty() {
                 apart.extend(split);
-            } else if !remaining::orient(&mut block, &mut borne)
-                && !second_look::again(&mut block, &mut borne, &mut looked)
+            } else if !remaining::orient(&mut block, &mut accepted)
+                && !ambiguous_orientation::orient_again(&mut block, &mut accepted, &mut looked)
             {
                 break;
             }
@@ -226,20 +228,20 @@ impl Attempt {
 }
 
 /// Takes back poses that too few of their photo's measurements agree with after all, and tries those photos once more.
-fn verify(block: &mut Block) {
-    let doubtful: Vec<usize> = (0..block.views.len()).filter(|&k| !growth::holds(block, k)).collect();
+fn verify(block: &mut OrientationBlock) {
+    let doubtful: Vec<usize> = (0..block.photos.len()).filter(|&k| !growth::holds(block, k)).collect();
     if doubtful.is_empty() {
         return;
     }
-    doubtful.iter().for_each(|&k| block.views[k].pose = None);
+    doubtful.iter().for_each(|&k| block.photos[k].pose = None);
     refine(block, Freedom::Everything);
     grow(block);
     refine(block, Freedom::Everything);
     block.intersect_new(0.0);
     block.review();
-    for k in 0..block.views.len() {
+    for k in 0..block.photos.len() {
         if !growth::holds(block, k) {
-            block.views[k].pose = None;
+            block.photos[k].pose = None;
         }
     }
     block.review();
@@ -250,8 +252,8 @@ fn fine_px(project: &Project) -> f64 {
     FINE_SIGMAS * quantile(&sigmas, 0.5)
 }
 
-/// Gives every camera a principal distance to work with, and tells where it comes from; none where it was given.
-fn give_principal_distances(block: &mut Block) -> Vec<Option<DistanceSource>> {
+/// Gives every camera a principal distance to work with, and notes where it comes from; `None` if it was given.
+fn give_principal_distances(block: &mut OrientationBlock) -> Vec<Option<DistanceSource>> {
     let mut sources = vec![None; block.cameras.len()];
     for camera in 0..block.cameras.len() {
         if principal_distance_px(&block.cameras[camera]).is_some() {
@@ -266,13 +268,13 @@ fn give_principal_distances(block: &mut Block) -> Vec<Option<DistanceSource>> {
     sources
 }
 
-/// What given coordinates and given orientations can orient.
-fn from_known(start: &Block) -> Block {
+/// Orients what is possible from given coordinates and given orientations.
+fn from_known(start: &OrientationBlock) -> OrientationBlock {
     let mut block = start.clone();
-    if start.marks.iter().filter(|m| m.known.is_some() && !m.sights.is_empty()).count() >= 3 {
+    if start.points.iter().filter(|m| m.known.is_some() && !m.observations.is_empty()).count() >= 3 {
         block.anchor();
-        for photo in 0..block.views.len() {
-            if block.views[photo].pose.is_none() {
+        for photo in 0..block.photos.len() {
+            if block.photos[photo].pose.is_none() {
                 growth::resect(&mut block, photo);
             }
         }
@@ -287,7 +289,7 @@ fn from_known(start: &Block) -> Block {
 }
 
 /// The project with what the block found in the places that were empty.
-fn filled(project: &Project, block: &Block) -> Project {
+fn filled(project: &Project, block: &OrientationBlock) -> Project {
     let mut project = project.clone();
     let object = |xyz: Vector3<f64>| -> Option<[f64; 3]> {
         let xyz = xyz + block.origin;
@@ -306,15 +308,15 @@ fn filled(project: &Project, block: &Block) -> Project {
             }
         }
     }
-    for (photo, view) in project.photos.iter_mut().zip(&block.views) {
-        if let (Some(pose), false) = (view.pose, view.given) {
+    for (photo, block_photo) in project.photos.iter_mut().zip(&block.photos) {
+        if let (Some(pose), false) = (block_photo.pose, block_photo.given) {
             photo.position = photo.position.or_else(|| object(pose.centre));
             photo.rotation = photo.rotation.or(Some(rotation::angles(&pose.object_to_camera)));
         }
     }
-    for (point, mark) in project.points.iter_mut().zip(&block.marks) {
+    for (point, block_point) in project.points.iter_mut().zip(&block.points) {
         if point.role == Role::Tie && point.xyz.is_none() {
-            point.xyz = mark.xyz.and_then(object);
+            point.xyz = block_point.xyz.and_then(object);
         }
     }
     project

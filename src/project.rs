@@ -2,13 +2,14 @@
 //!
 //! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
 
-mod colours;
 mod epoch;
 mod features;
 mod identifier;
+mod local_system;
 mod origin;
 mod parameter;
 mod plan;
+mod removed;
 mod report;
 mod rig;
 mod rows;
@@ -21,14 +22,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::axes::{ShownAxes, UserAxes};
 
-pub use colours::{ColourDifferences, LensColour};
 pub use epoch::EpochOf;
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 pub(crate) use identifier::{identifier, identifier_option_list, identifiers};
+pub use local_system::{Geographic, LocalSystem, ReferenceEllipsoid};
 pub use origin::{Assumed, Conversion, Ignored, Origin};
 pub use parameter::{CameraModel, Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
-pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
+pub use removed::RemovedFields;
+pub(crate) use removed::{count_entries, note_removed};
+pub use report::{LengthLimit, Paper, ReportLanguage, ReportSettings, Section};
 pub use rig::Rig;
 pub use rows::Rows;
 pub use scaling::scaled;
@@ -76,7 +79,7 @@ pub struct Project {
     /// adjustment takes back what fits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
-    /// What is measured on the result.
+    /// Measurements on the result.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub features: Vec<Feature>,
     /// Coordinate systems of the object's own.
@@ -88,16 +91,16 @@ pub struct Project {
     /// Layers of the lines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
-    /// What the report says besides its numbers: no input of the adjustment.
+    /// Settings of the report, which are not inputs of the adjustment.
     #[serde(default, skip_serializing_if = "ReportSettings::is_default")]
     pub report: ReportSettings,
-    /// What was planned before the photos were taken.
+    /// The plan of the photos.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Box<Plan>>,
     /// The project whose later epoch this is: no input of the adjustment.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub epoch: Option<EpochOf>,
-    /// Files of another program that the project was read from: what was assumed, left out and converted.
+    /// Files of another program, or of an earlier version, that the project was read from: what was assumed, left out and converted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Box<Origin>>,
 }
@@ -166,9 +169,6 @@ pub struct Camera {
     /// Whether every photo has an interior orientation of its own, starting from this one.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub per_photo: bool,
-    /// What is added to the parameters for photos measured in another colour than the camera was calibrated in; held.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub colours: BTreeMap<LensColour, ColourDifferences>,
 }
 
 /// A photo and its exterior orientation.
@@ -201,12 +201,9 @@ pub struct Photo {
     /// SHA-256 of the file in hexadecimal digits, where it was looked into.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub sha256: String,
-    /// Colour that its centres were measured in, where that is red or blue; null: the one its camera is calibrated in.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub colour: Option<LensColour>,
 }
 
-/// What a point is for.
+/// Role of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -225,7 +222,7 @@ pub struct Point {
     /// Identifier.
     #[serde(deserialize_with = "identifier")]
     pub id: String,
-    /// What it is for.
+    /// Role: tie, control or check point.
     #[serde(default)]
     pub role: Role,
     /// Coordinates: given (control, check) or initial (tie).
@@ -297,15 +294,15 @@ pub struct SetAside {
     pub point: String,
     /// Why.
     pub reason: SetAsideReason,
-    /// Its distance from where its point should have been, pixels; null where no place was known.
+    /// Its distance from where its point should have been, pixels; null if no place was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance_px: Option<f64>,
-    /// What set it aside.
+    /// The step that set it aside.
     #[serde(default, skip_serializing_if = "SetAsideBy::is_orientation")]
     pub by: SetAsideBy,
 }
 
-/// What set an observation aside.
+/// The step that set an observation aside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SetAsideBy {
@@ -332,7 +329,7 @@ pub enum SetAsideReason {
     PhotoNotOriented,
     /// Its point could not be determined.
     PointNotDetermined,
-    /// As many observations of its point speak for another place as for this one: which are right cannot be decided.
+    /// Equally many observations support two positions of its point, so the correct ones cannot be identified.
     Undecided,
 }
 
@@ -349,7 +346,7 @@ pub struct Distance {
     pub length: f64,
     /// Standard error of the length.
     pub sigma: f64,
-    /// Whether it is compared only, and takes no part.
+    /// Whether it is compared only, and is not used.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub check: bool,
 }
@@ -360,7 +357,7 @@ pub struct Distance {
 pub enum DatumKind {
     /// Control points.
     Control,
-    /// As few constraints as the datum defect asks for.
+    /// As many constraints as the datum defect.
     Minimal,
     /// Inner constraints.
     #[default]
@@ -393,8 +390,13 @@ impl Camera {
             free: Vec::new(),
             sigma: BTreeMap::new(),
             per_photo: false,
-            colours: BTreeMap::new(),
         }
+    }
+
+    /// The camera as it took a photo: with the photo's own interior orientation, where its photos have one each.
+    pub fn of_photo(&self, photo: &Photo) -> Self {
+        let interior = photo.interior.filter(|_| self.per_photo).unwrap_or(self.interior);
+        Self { interior, ..self.clone() }
     }
 
     /// Width and height of a pixel in photo units (1 without a pitch).

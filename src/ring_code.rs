@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-pub use distance::{Spread, distance, spread};
+pub use distance::{CodesByDistance, distance, spread};
 
 /// A family of ring codes, by its maker's name and its number of bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -112,7 +112,7 @@ impl Family {
         &self.list().codes
     }
 
-    /// Number of a code given as its smallest rotation; none when the family does not have it.
+    /// Number of a code given as its smallest rotation; `None` if the family does not have it.
     pub fn number(self, code: u32) -> Option<u32> {
         let by_code = &self.list().by_code;
         let place = by_code.binary_search_by_key(&code, |(code, _)| *code).ok()?;
@@ -120,8 +120,8 @@ impl Family {
     }
 
     /// The lists of 20 bits take a while: each is made once.
-    fn list(self) -> &'static List {
-        static LISTS: [OnceLock<List>; 8] = [const { OnceLock::new() }; 8];
+    fn list(self) -> &'static CodeList {
+        static LISTS: [OnceLock<CodeList>; 8] = [const { OnceLock::new() }; 8];
         LISTS[self as usize].get_or_init(|| {
             let codes = match self.design() {
                 Design::Schneider => valid_codes(self.bits()),
@@ -129,13 +129,13 @@ impl Family {
             };
             let mut by_code: Vec<_> = codes.iter().zip(1..).map(|(code, number)| (*code, number)).collect();
             by_code.sort_unstable();
-            List { codes, by_code }
+            CodeList { codes, by_code }
         })
     }
 }
 
 /// A family's codes in the order of their numbers, and by code with their numbers.
-struct List {
+struct CodeList {
     codes: Vec<u32>,
     by_code: Vec<(u32, u32)>,
 }
@@ -148,7 +148,7 @@ pub fn smallest_rotation(code: u32, bits: u32) -> u32 {
 
 /// Number of sectors of the coarser grid on which every arc of a ring of `bits` sectors ends: the largest m below `bits` that
 /// divides it and in whose sectors, from some sector on, the bits are alike. No picture tells such a ring from one of m sectors, which other
-/// programs print (8 and 10). None where some arc ends between them; 1 where all or none are set.
+/// programs print (8 and 10). `None` if some arc ends between them; 1 where all or none are set.
 pub fn coarser_grid(code: u32, bits: u32) -> Option<u32> {
     // where the level changes between a sector and the one before it
     let mask = (1u32 << bits) - 1;

@@ -9,7 +9,7 @@ mod part;
 
 use serde::{Deserialize, Serialize};
 
-use crate::decode::{Photo, Picture};
+use crate::decode::{DecodedPhoto, Picture};
 use crate::detection::{Channel, Colour};
 use crate::error::{Damage, Error, Place, Result};
 use crate::exif::PhotoInfo;
@@ -18,7 +18,7 @@ use crate::limits;
 pub use mosaic::{Black, BlackRow, Mosaic, Pattern};
 pub use part::{part, values};
 
-/// What is said of the samples.
+/// Header information about the samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Header {
@@ -30,7 +30,7 @@ pub struct Header {
     pub height: u32,
     /// Bits that a sample was stored with.
     pub bits: u32,
-    /// What the file says of the camera.
+    /// Camera data in the file.
     pub info: PhotoInfo,
     /// How the samples of a sensor are to be understood; absent for a developed picture.
     pub mosaic: Option<Mosaic>,
@@ -40,16 +40,16 @@ pub struct Header {
     pub corrections: Vec<String>,
     /// Lists of corrections that could not be read: what they name is not known, and may be none.
     pub unread_corrections: usize,
-    /// Width and height of the small picture; 0 where there is none.
+    /// Width and height of the small picture; 0 if there is none.
     pub small: [u32; 2],
 }
 
 /// A file as its decoder leaves it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unpacked {
-    /// What is said of the samples.
+    /// Header information about the samples.
     pub header: Header,
-    /// Row by row; empty where only the header was wanted.
+    /// Row by row; empty if only the header was wanted.
     pub samples: Samples,
     /// The small picture: red, green, blue and opacity of each pixel.
     pub small: Vec<u8>,
@@ -59,7 +59,7 @@ pub struct Unpacked {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shot {
     /// One channel of a developed picture.
-    Photo(Photo),
+    Photo(DecodedPhoto),
     /// The samples of a sensor.
     Sensor(Sensor),
 }
@@ -109,7 +109,7 @@ impl Unpacked {
     /// From what crossed the border: the header as JSON, and the samples.
     ///
     /// # Errors
-    /// [`Error::BrokenImage`] where the header is none.
+    /// [`Error::BrokenImage`] if the header is none.
     pub fn read(header: &str, samples: Samples, small: Vec<u8>) -> Result<Self> {
         let header = serde_json::from_str(header)
             .map_err(|error| broken(Damage::Decoder { message: format!("the decoder's header: {error}") }))?;
@@ -121,7 +121,7 @@ impl Unpacked {
         serde_json::to_string(&self.header).unwrap_or_default()
     }
 
-    /// The photo, checked: as many samples as its size says, levels in order, rows inside of it.
+    /// The photo, checked: the number of samples agrees with the size, levels are in order, rows inside of it.
     ///
     /// # Errors
     /// [`Error::ImageSize`], [`Error::BrokenImage`] for levels that leave nothing between black and white.
@@ -163,7 +163,7 @@ impl Unpacked {
             }
             (Some(_), Samples::U8(_)) => Err(broken(Damage::Header)),
             (None, samples) => {
-                Ok(Shot::Photo(Photo { grey: Grey { width, height, samples }, damaged_rows, page: None }))
+                Ok(Shot::Photo(DecodedPhoto { grey: Grey { width, height, samples }, damaged_rows, page: None }))
             }
         }
     }

@@ -146,7 +146,7 @@ impl Unit {
         }
     }
 
-    /// The unit that a text names: a symbol or a common name, in any case; none for any other text.
+    /// The unit that a text names: a symbol or a common name, in any case; `None` for any other text.
     pub fn named(text: &str) -> Option<Self> {
         let text = text.trim().trim_end_matches('.').to_lowercase();
         Self::ALL.into_iter().find(|unit| unit.symbol() == text || unit.names().contains(&text.as_str()))

@@ -1,5 +1,5 @@
-// Has the page ready without a network: all files of one build, each checked against its digest, or none. The build writes before this
-// FILES, names with digests, LATER, those of files that few need and that are kept when they have been asked for, and DIGEST, that of all.
+// The service worker: makes the page available offline. It caches all files of one build, each verified by its digest, or none. The build
+// writes before this: FILES, names with digests; LATER, the same for rarely needed files, which are cached on first use; DIGEST, of all.
 const BUILD = `sightline ${DIGEST}`;
 const scope = new URL('./', location.href);
 
@@ -11,7 +11,7 @@ const wanted = (name) => FILES[name] ?? LATER[name];
 /** A file's name without the folder of its build. */
 const last = (address) => String(address).split('/').pop();
 
-/** What earlier builds have of the files of a name: their requests with the caches that they are in. */
+/** Cached files of this name of earlier builds: [cache, request] pairs. */
 async function kept(name) {
   const found = [];
   for (const key of (await caches.keys()).filter((key) => key.startsWith('sightline '))) {
@@ -21,13 +21,13 @@ async function kept(name) {
   return found;
 }
 
-/** Files that few need, of those who have needed them: an earlier build has them. */
+/** Names of the rarely needed files that were used with an earlier build. */
 async function asked() {
   const wants = await Promise.all(Object.keys(LATER).map(async (name) => ((await kept(name)).length > 0 ? [name] : [])));
   return wants.flat();
 }
 
-/** A file of this build: from an earlier one where it is the same, else from the host; anything else ends the installation. */
+/** A file of this build: from the cache of an earlier build if it is identical, else from the host; an error ends the installation. */
 async function fetched(name) {
   const address = new URL(name, scope);
   for (const [cache, request] of await kept(name)) {
@@ -36,7 +36,7 @@ async function fetched(name) {
   }
   const response = await fetch(address, { cache: 'no-store' });
   if (!response.ok || (await digest(response.clone())) !== wanted(name)) throw new Error(`${name} is not of this build`);
-  // Without the mark of a redirection, which a page does not accept.
+  // A new response without the flag of a redirection, which a page does not accept.
   return new Response(await response.blob(), { headers: { 'Content-Type': response.headers.get('Content-Type') ?? '' } });
 }
 
@@ -54,7 +54,7 @@ addEventListener('activate', (event) => {
   event.waitUntil(others().then((keys) => Promise.all(keys.map((key) => caches.delete(key)))));
 });
 
-// The person has agreed to the new build: the page that asked reloads.
+// The user has accepted the new build: the page that asked reloads.
 addEventListener('message', (event) => event.data === 'go on' && skipWaiting());
 
 addEventListener('fetch', (event) => {

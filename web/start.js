@@ -26,7 +26,7 @@ self.sightlineForget = async () => {
   if (self.caches) for (const key of await caches.keys()) if (key.startsWith('sightline ')) await caches.delete(key);
 };
 
-// What is missing in this browser has been said (`check.js`).
+// The missing browser features have been reported (`check.js`).
 if (!self.sightlineTrouble) {
   await start({ module_or_path: new URL('./desk_bg.wasm', import.meta.url) });
   self.sightlineStarted = true;

@@ -18,7 +18,7 @@
 //    each frame is added, never put in the place of another, in a transaction that looks first whether the record still names this worker:
 //    a writer that was frozen, or was thought dead, writes nothing any more. With files the open file itself excludes others.
 // 3. Whoever opens a project that is held only reads along, is told so, and can take it over. Its writer is asked first and writes all that it
-//    still has; one that does not answer is passed over, and what its page could not write becomes a project of its own. A writer of files looks
+//    still has; one that does not answer is skipped, and what its page could not write becomes a project of its own. A writer of files looks
 //    after each frame whether a newer journal has been begun, and whoever has begun one looks after that for frames in the old one.
 // 4. Renaming, deleting and purging need the hold, too: what is open in another window is not deleted there. A deleted project stays as it is,
 //    out of the list; an append takes the deletion back. It is purged by nobody but the worker that deleted it, or after a day.
@@ -37,7 +37,7 @@ import { fault, pause } from './storage/common.js';
 
 /** A part is written whole again after so many that only say what changed, or when those outgrow it: reading it stays short. */
 const CHAIN = 64;
-/** What must stay free when a photo is copied: room for the journal. */
+/** Bytes that must remain free when a photo is copied, for the journal. */
 const RESERVE = 32 << 20;
 /** The version of the journal that is written here; all up to it are read. Since 2 the tables of a project are parts of their own. */
 const VERSION = 2;
@@ -105,7 +105,7 @@ async function start({ after }) {
   if (after === 'noticed') await othersGone();
   if (after === 'told') await enter();
   anew = Boolean(after);
-  // Whoever waits for the end of this worker needs its name, which is of no use before it is held.
+  // Others wait for the end of this worker by its name, which must be held first.
   tellLife(life, await live(life));
   await reach();
   if (after === 'noticed') windows?.postMessage({ word: 'anew' });
@@ -200,7 +200,7 @@ async function close() {
 
 /** Parts and the last of each kind, out of a journal's items. */
 function gathered(items) {
-  // A journal whose beginning is damaged does not say its version: what is not understood of it is not read.
+  // The version of a journal whose beginning is damaged is unknown: entries that are not understood are not read.
   const version = items.find((item) => item.version !== undefined)?.version ?? VERSION;
   if (!(version >= 1 && version <= VERSION)) throw fault('VersionError', String(version));
   const parts = new Map();
@@ -334,7 +334,7 @@ function partOf(id, kind, words, last) {
   return { part: { id, kind, words } };
 }
 
-/** What changed, at once and whole. A card is never behind a photo: those come after it. Whoever writes has not deleted (invariant 4). */
+/** Writes all changes in one step. The card is written before the photos, so it is never older. A window that writes has not deleted the project (invariant 4). */
 async function append({ id, note, parts, card, snapshot }, texts) {
   if (snapshot && project?.id !== id) {
     await close();
@@ -365,7 +365,7 @@ async function append({ id, note, parts, card, snapshot }, texts) {
       if (anew && (await backend.journal(id)).size !== frame.length) throw fault('GoneError', 'cleared');
     } else {
       const takeBack = await project.writer.append(framed(items));
-      // After it: a writer that was passed over has thrown, and the card is the other window's. Without room for the card the frame goes
+      // After it: a writer that was skipped has thrown, and the card is the other window's. Without room for the card the frame goes
       // again: it is sent another time, and would fill what room there comes.
       await setCard().catch(async (error) => {
         await takeBack().catch(() => {});
@@ -392,7 +392,7 @@ async function check({ id }) {
 /** A journal as it was read to be condensed, until that is done. */
 let surveyed = null;
 
-/** What the journal of the open project has: its notes, and of each part its number, its kind and how many characters it takes. */
+/** Contents of the journal of the open project: its notes, and number, kind and length of each part. */
 async function survey({ id }) {
   if (project?.id !== id || !project.writer) throw fault('InvalidStateError', 'not open');
   const { generation, items, end, damaged } = await backend.journal(id);
@@ -423,7 +423,7 @@ async function condense({ id, note, ids }) {
   const read = new Map();
   const written = new Map();
   for (const part of parts.values()) {
-    // In their order, so that each is told from the one before without going back to the first.
+    // In their order, so that each is stored as a difference from the one before without going back to the first.
     const before = read.get(part.kind);
     const words = part.base !== undefined && before?.id === part.base ? before.words.slice(0, part.from) + part.words + before.words.slice(part.to) : text(parts, part.id);
     read.set(part.kind, { id: part.id, words });
@@ -528,7 +528,7 @@ async function peek({ id, kind }) {
     try {
       if (part.kind === kind) return { reply: { name }, extras: [text(parts, part.id)] };
     } catch {
-      // What it is told from is lost: one before it may be whole.
+      // The table that it is a difference from is lost: one before it may be whole.
     }
   }
   throw fault('DamagedError', `no ${kind} can be read`);

@@ -23,7 +23,7 @@ mod painter;
 use coded_patch::{CodedPatch, Curve, Kind, coded_patch};
 use painter::Uniform;
 
-/// Pictures after which it is told how far it has come.
+/// Number of pictures between progress messages.
 const PROGRESS: u64 = 2000;
 
 /// Dots from this diameter on are asked to be read.
@@ -93,7 +93,7 @@ fn main() {
             by_family.entry(family).or_default().add(&tally);
         }
         let unread = tally.large[0] > 0 && kind == Kind::Code && tally.large[3] == 0;
-        // however many are not read: every wrong one is told
+        // however many are not read: every wrong one is printed
         if tally.wrong > 0 || unread && shown < 60 {
             shown += usize::from(tally.wrong == 0);
             println!(
@@ -153,7 +153,7 @@ fn table(heading: &str, rows: impl Iterator<Item = (String, Tally)>) {
     }
 }
 
-/// What detection and what the reader alone make of a picture.
+/// Results of detection and of the code reader alone for a picture.
 fn judge(patch: &CodedPatch) -> (Tally, String) {
     let codes = Codes::from(patch.family);
     let view = patch.view();

@@ -8,7 +8,7 @@ use sightline::noise::Noise;
 use crate::light::Light;
 use crate::painter::{Canvas, Spot, Uniform};
 
-/// Most that lamps change the light by from pixel to pixel.
+/// Maximum change of the light of lamps from pixel to pixel.
 const STEEPEST: f64 = 2e-4;
 
 /// Grains of the texture in pixels, and their standard deviation.

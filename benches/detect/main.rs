@@ -28,7 +28,7 @@ const GRID: usize = 50;
 /// Circles of contrast 200, and ellipses (major axis, axis ratio) of contrast 60.
 const CIRCLES: [f64; 4] = [5.0, 10.0, 20.0, 40.0];
 const ELLIPSES: [(f64, f64); 4] = [(12.5, 0.4), (24.0, 0.4), (24.0, 0.7), (50.0, 0.4)];
-/// Most that lamps change the light by from pixel to pixel: a tenth across a target of 30 px.
+/// Maximum change of the light of lamps from pixel to pixel: a tenth across a target of 30 px.
 const STEEPEST: f64 = 0.1 / 30.0;
 /// Seeds of the cluttered pictures.
 const SEEDS: [u64; 4] = [11, 12, 13, 14];

@@ -3,7 +3,7 @@
 
 #![allow(dead_code, reason = "epochs and networks are shared with the tests, which want more of them")]
 
-/// What the simulations share with the tests.
+/// Shared by the simulations and the tests.
 #[path = "."]
 mod support {
     #[path = "../../tests/engine/support/epochs.rs"]

@@ -18,7 +18,7 @@ use super::network::{both, gauss, unit};
 const SIZE: [u32; 2] = [6000, 4000];
 const NOISE_PX: f64 = 0.05;
 
-/// What matching made of a scene.
+/// Result of matching in a scene.
 #[derive(Debug)]
 pub struct Matched {
     pub seconds: f64,

@@ -14,7 +14,7 @@ use std::time::Instant;
 use network::{Case, KINDS, judged};
 use sightline::orient::orient;
 
-/// Seconds this process has computed, which others on the machine do not change; where the system does not tell them, those that passed.
+/// Seconds this process has computed, which others on the machine do not change; elapsed seconds if the system does not report them.
 fn seconds_used() -> f64 {
     static BEGAN: OnceLock<Instant> = OnceLock::new();
     let began = BEGAN.get_or_init(Instant::now);

@@ -20,7 +20,7 @@ const WIDTH: u32 = 3000;
 const HEIGHT: u32 = 2000;
 const NOISE_PX: f64 = 0.1;
 
-/// What is known of the principal distance.
+/// Given information about the principal distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Distance {
     Unknown,
@@ -28,7 +28,7 @@ pub enum Distance {
     Within5,
 }
 
-/// What one network is like.
+/// Parameters of one network.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub seed: u64,
@@ -64,7 +64,7 @@ impl Case {
     }
 }
 
-/// A network: the truth, what orientation is given of it, and which observations carry a wrong name.
+/// A network: the truth, what orientation is given of it, and which observations have a wrong name.
 pub struct Network {
     pub truth: Project,
     pub given: Project,
@@ -276,7 +276,7 @@ fn bare(truth: &Project, case: &Case, g: &mut ChaCha8Rng) -> Project {
     project
 }
 
-/// What became of a network.
+/// Result for a network.
 #[derive(Clone, Debug, Default)]
 pub struct Verdict {
     /// An adjustment from the truth without the wrong observations solves it.
@@ -400,7 +400,7 @@ fn says_weak(note: &Note) -> bool {
     matches!(note, Note::PrincipalDistanceWeak { .. })
 }
 
-/// An assumed value is always noted; what counts is a word on its worth.
+/// An assumed value is always noted; what counts is a note on its reliability.
 fn says_c(note: &Note) -> bool {
     matches!(note, Note::PrincipalDistanceWeak { .. } | Note::PrincipalDistanceChanged { .. })
 }

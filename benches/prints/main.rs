@@ -12,7 +12,7 @@ use std::time::Instant;
 use sightline::detect::detect;
 use sightline::detection::{DetectOptions, Detection, Target};
 use sightline::ring_code::Family;
-use sightline::sheets::{Ground, LEAST_PX, SheetOptions, target_sheets};
+use sightline_report::sheets::{Ground, LEAST_PX, SheetOptions, target_sheets};
 
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 #[path = "../../tests/engine/support/coded_patch.rs"]
@@ -31,7 +31,7 @@ const DIAMETER: f64 = 4.0;
 /// Sheets of each family, ground and resolution; their numbers are spread over the family.
 const SHEETS: usize = 2;
 
-/// What became of numbers, and the errors of their centres along the smaller axis and across.
+/// Results for code numbers, and the errors of their centres along the minor axis and across.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     asked: usize,
@@ -165,7 +165,7 @@ fn name(family: Family) -> String {
     serde_json::to_string(&family).expect("a name").trim_matches('"').to_owned()
 }
 
-/// What became of every number of a photo. What was not read is told with all that it takes to draw it again.
+/// Results for every code number of a photo. A code that was not read is printed with all that is needed to draw it again.
 fn looked_at(shot: &Shot, found: &Detection, taken: &Taken, print: &str) -> Tables {
     let targets = &found.targets;
     let mut photo = Tables::default();

@@ -3,10 +3,11 @@
 #[path = "../tests/support/dng.rs"]
 mod dng;
 
+use sightline::decode;
 use sightline::detection::Channel;
 use sightline::image::Samples;
 use sightline::noise::Noise;
-use sightline::{decode, sample};
+use sightline_lab::sample;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).ok_or("written FOLDER")?;

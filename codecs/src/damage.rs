@@ -1,4 +1,4 @@
-//! What decoders say, as errors of the engine.
+//! Errors of the decoders as errors of the engine.
 
 use sightline::error::{Damage, Error, PictureKind, Place, shortened};
 use sightline::limits;
@@ -9,12 +9,12 @@ pub fn broken(reason: Damage) -> Error {
 }
 
 /// A damaged file, in a decoder's words.
-pub fn said(message: &impl ToString) -> Error {
+pub fn engine_error(message: &impl ToString) -> Error {
     broken(Damage::Decoder { message: shortened(&message.to_string()) })
 }
 
 /// A kind that is not read.
-pub fn unread(kind: PictureKind) -> Error {
+pub fn unsupported(kind: PictureKind) -> Error {
     Error::UnknownImageFormat { recognised: Some(kind), at: Place::default() }
 }
 

@@ -1,6 +1,6 @@
 //! HEIC and HEIF (ISO/IEC 23008-12): the luma plane as it is stored, tile by tile.
 //!
-//! The planes are HEVC's own (ITU-T H.265), neither converted nor turned. The crop that the file asks for is made, as what lies outside is
+//! The planes are those of HEVC (ITU-T H.265), neither converted nor rotated. The crop given in the file is applied, as what lies outside is
 //! padding; rotation and mirror become an orientation for showing, so that coordinates stay on the stored grid. EXIF's own
 //! orientation says the same a second time in such files and is not read.
 
@@ -21,7 +21,7 @@ use sightline::image::Samples;
 use sightline::sensor::{Header, Unpacked};
 use sightline::{exif, limits};
 
-use crate::damage::{broken, check_size, said, unread};
+use crate::damage::{broken, check_size, engine_error, unsupported};
 use crate::{Wanted, small};
 use colour::Matrix;
 
@@ -35,7 +35,7 @@ const DEPTH: u32 = 4;
 /// Opens a file.
 pub fn unpack(bytes: &[u8], wanted: Wanted) -> Result<Unpacked> {
     let readable = readable(bytes);
-    let file = HeifFile::parse(&readable).map_err(|error| said(&error))?;
+    let file = HeifFile::parse(&readable).map_err(|error| engine_error(&error))?;
     let source = source(&file, file.primary_id)?;
     check_size(source.size, bytes.len(), MOST_FROM_A_BYTE)?;
     let crop = turn::crop(&file, file.primary_id, source.size)?;
@@ -86,7 +86,7 @@ fn readable(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Borrowed(bytes)
 }
 
-/// What the picture is made of.
+/// Contents of the picture.
 struct Source {
     /// Coded pictures, row by row.
     tiles: Vec<ItemId>,
@@ -101,7 +101,7 @@ struct Source {
 
 /// Finds the coded pictures of an item.
 fn source(file: &HeifFile, mut id: ItemId) -> Result<Source> {
-    let container = |error: heifer_isobmff::Error| said(&error);
+    let container = |error: heifer_isobmff::Error| engine_error(&error);
     for _ in 0..DEPTH {
         let kind = file.item(id).map_err(container)?.item_type.0;
         match &kind {
@@ -126,7 +126,7 @@ fn source(file: &HeifFile, mut id: ItemId) -> Result<Source> {
                 let [across, down] = [(grid.columns, tile[0]), (grid.rows, tile[1])]
                     .map(|(count, side)| u64::from(count) * u64::from(side));
                 let size = [grid.output_width, grid.output_height];
-                // one tile in many places is work that no camera asks for
+                // one tile at many places would cost time, and no camera writes that
                 let covers = across >= u64::from(size[0]) && down >= u64::from(size[1]);
                 let tight =
                     across - u64::from(tile[0]) < u64::from(size[0]) && down - u64::from(tile[1]) < u64::from(size[1]);
@@ -136,21 +136,21 @@ fn source(file: &HeifFile, mut id: ItemId) -> Result<Source> {
                 let bits = bits(file, tiles[0])?;
                 return Ok(Source { tiles, columns: grid.columns.into(), tile, size, bits });
             }
-            b"av01" => return Err(unread(PictureKind::Named("AVIF".into()))),
-            b"iovl" => return Err(unread(PictureKind::HeifOverlay)),
-            other => return Err(unread(PictureKind::HeifOf(String::from_utf8_lossy(other).into()))),
+            b"av01" => return Err(unsupported(PictureKind::Named("AVIF".into()))),
+            b"iovl" => return Err(unsupported(PictureKind::HeifOverlay)),
+            other => return Err(unsupported(PictureKind::HeifOf(String::from_utf8_lossy(other).into()))),
         }
     }
     Err(broken(Damage::Header))
 }
 
 fn sized(file: &HeifFile, id: ItemId) -> Result<[u32; 2]> {
-    let (width, height) = file.image_size(id).map_err(|e| said(&e))?.ok_or_else(|| broken(Damage::Header))?;
+    let (width, height) = file.image_size(id).map_err(|e| engine_error(&e))?.ok_or_else(|| broken(Damage::Header))?;
     if width == 0 || height == 0 { Err(broken(Damage::Header)) } else { Ok([width, height]) }
 }
 
 fn bits(file: &HeifFile, id: ItemId) -> Result<u32> {
-    let config = file.hevc_config(id).map_err(|e| said(&e))?.ok_or_else(|| broken(Damage::Header))?;
+    let config = file.hevc_config(id).map_err(|e| engine_error(&e))?.ok_or_else(|| broken(Damage::Header))?;
     let bits = u32::from(config.bit_depth_luma);
     if (8..=16).contains(&bits) { Ok(bits) } else { Err(broken(Damage::Header)) }
 }
@@ -196,8 +196,8 @@ fn assembled(file: &HeifFile, source: &Source, coloured: bool) -> Result<Planes>
     for (k, id) in source.tiles.iter().enumerate() {
         let place = [k % source.columns, k / source.columns];
         let corner = [0, 1].map(|axis| place[axis] * source.tile[axis] as usize);
-        let decoded = file.hevc_bitstream(*id).map_err(|error| said(&error)).and_then(|stream| {
-            decode_picture(&stream, options(source.tile, stream.len())).map_err(|error| said(&error))
+        let decoded = file.hevc_bitstream(*id).map_err(|error| engine_error(&error)).and_then(|stream| {
+            decode_picture(&stream, options(source.tile, stream.len())).map_err(|error| engine_error(&error))
         });
         match decoded.and_then(|frame| planes.put(&frame, corner, source, coloured)) {
             Ok(()) => whole += 1,
@@ -339,5 +339,5 @@ impl Planes {
 
 /// A property of an item, where it has one.
 fn property<'a, T>(file: &'a HeifFile, id: ItemId, which: impl Fn(&'a Property) -> Option<T>) -> Result<Option<T>> {
-    Ok(file.item_properties(id).map_err(|error| said(&error))?.find_map(which))
+    Ok(file.item_properties(id).map_err(|error| engine_error(&error))?.find_map(which))
 }

@@ -15,14 +15,14 @@ use sightline::detection::Channel;
 use sightline::error::{Error, Place, Result};
 use sightline::sensor::Unpacked;
 
-/// What is wanted of a file.
+/// Requested contents of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
     /// Channel of a developed picture; a sensor's samples come all.
     pub channel: Channel,
     /// Whether the samples are wanted.
     pub samples: bool,
-    /// Longest side of the small picture; 0 where none is wanted. That of a RAW is the one its camera embedded, and so is that of a HEIC without
+    /// Longest side of the small picture; 0 if none is wanted. That of a RAW is the one its camera embedded, and so is that of a HEIC without
     /// its samples, where it has one of at least half this side.
     pub max_side: u32,
 }

@@ -31,7 +31,7 @@ pub fn unpack(bytes: &[u8], channel: &str, samples: bool, max_side: u32) -> Resu
     Ok([header, samples, Uint8Array::from(&unpacked.small[..]).into()].into_iter().collect())
 }
 
-/// What a trap of a decoder is told as.
+/// The error for a trap of a decoder.
 #[wasm_bindgen]
 pub fn trapped(message: &str) -> String {
     let reason = Damage::Decoder { message: sightline::error::shortened(message) };

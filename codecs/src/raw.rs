@@ -1,7 +1,7 @@
-//! RAW files of all makers: the sensor's samples as they were read out, neither balanced nor interpolated nor warped.
+//! RAW files of all makers: the sensor's samples as they were read out, without white balance, demosaicing or lens correction.
 //!
-//! Black levels, the white level and the lit part come along; linearisation tables of the file, which only undo how it was packed, are
-//! applied by the decoder. The lists of corrections that a DNG carries are named, not made.
+//! Black levels, the white level and the active area are returned with them. The decoder applies the file's linearisation tables, which
+//! only undo its compression. The corrections listed in a DNG (opcode lists) are reported, not applied.
 
 mod about;
 mod preview;
@@ -18,17 +18,17 @@ use sightline::limits;
 use sightline::sensor::{Black, Header, Mosaic, Pattern, Unpacked};
 
 use crate::Wanted;
-use crate::damage::{broken, check_size, said, unread};
+use crate::damage::{broken, check_size, engine_error, unsupported};
 
-/// Pixels that a byte describes at most: packers of sensors halve, at best quarter, what noise leaves to pack. Pictures without any,
-/// as tests draw them, pack further.
-const MOST_FROM_A_BYTE: u64 = 64;
+/// Maximum number of pixels per byte of the file, against false sizes in damaged headers. Real RAW files have at most 4, since noise
+/// does not compress; pictures without noise, as in tests, compress further.
+const MAX_PIXELS_PER_BYTE: u64 = 64;
 
-/// Opens a file; `named` is what its first bytes say of its format.
+/// Opens a file; `named` is the name of the format that its first bytes indicate.
 pub fn unpack(bytes: &[u8], named: &str, wanted: Wanted) -> Result<Unpacked> {
     let raw = FlashRaw::open_with(bytes, bounds()).map_err(|fault| refused(fault, named))?;
     let frame = raw.frame_info();
-    check_size([frame.width, frame.height], bytes.len(), MOST_FROM_A_BYTE)?;
+    check_size([frame.width, frame.height], bytes.len(), MAX_PIXELS_PER_BYTE)?;
     let (corrections, unread_corrections) = about::corrections(frame);
     let mut header = Header {
         format: raw.format().name().into(),
@@ -62,7 +62,7 @@ pub fn unpack(bytes: &[u8], named: &str, wanted: Wanted) -> Result<Unpacked> {
     header.damaged_rows = decoded.warnings.iter().map(|warning| lost_rows(warning, &units, frame.height)).collect();
     header.mosaic = pattern.map(|pattern| Mosaic {
         pattern,
-        active_area: lit(frame),
+        active_area: active_area(frame),
         black: black(&decoded.black_level, frame),
         white: f64::from(decoded.white_level.min()).min(65535.0),
     });
@@ -71,27 +71,30 @@ pub fn unpack(bytes: &[u8], named: &str, wanted: Wanted) -> Result<Unpacked> {
 }
 
 fn bounds() -> Limits {
-    // three samples a pixel in linear files
+    // linear files have three samples per pixel
     Limits::default().with_max_samples(3 * limits::PIXELS).with_max_dimension(65_535)
 }
 
-/// The filters; none where every pixel has all colours. Other layouts are refused by name.
+/// The pattern of the colour filters; `None` if every pixel has all channels.
+///
+/// # Errors
+/// Names the layout if it is not supported.
 fn pattern(frame: &FrameInfo, format: &str) -> Result<Option<Pattern>> {
     let parsed = |letters: &str, width| Pattern::parse(letters, width).ok_or_else(|| broken(Damage::Header)).map(Some);
     match (frame.layout, &frame.cfa) {
-        (SensorLayout::Foveon, _) => Err(unread(PictureKind::RawLayered(format.into()))),
+        (SensorLayout::Foveon, _) => Err(unsupported(PictureKind::RawLayered(format.into()))),
         (_, None) if frame.cpp == 3 => Ok(None),
         (SensorLayout::Monochrome, _) if frame.cpp == 1 => parsed("W", 1),
         (_, Some(cfa)) if frame.cpp == 1 => {
             let letters: String = cfa.colors().into_iter().map(CfaColor::letter).collect();
             parsed(&letters, cfa.width())
         }
-        _ => Err(unread(PictureKind::RawSamples(format.into(), frame.cpp as usize))),
+        _ => Err(unsupported(PictureKind::RawSamples(format.into(), frame.cpp as usize))),
     }
 }
 
-/// The part that light reaches.
-fn lit(frame: &FrameInfo) -> [u32; 4] {
+/// The area that light reaches: left, top, width and height in pixels.
+fn active_area(frame: &FrameInfo) -> [u32; 4] {
     let area = frame.active_area.clamp_to(frame.width, frame.height);
     if area.is_empty() { [0, 0, frame.width, frame.height] } else { [area.x, area.y, area.width, area.height] }
 }
@@ -100,7 +103,7 @@ fn black(level: &BlackLevel, frame: &FrameInfo) -> Black {
     let each = |list: &[f32]| list.iter().map(|level| f64::from(*level)).collect::<Vec<_>>();
     let (rows, columns) = (usize::from(level.rows.max(1)), usize::from(level.cols.max(1)));
     let places = (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y)));
-    // at() adds what rows and columns have of their own, which is kept apart
+    // at() would add the differences of rows and columns, which are stored separately
     let plain = BlackLevel { row_deltas: Vec::new(), col_deltas: Vec::new(), ..level.clone() };
     let mut black = Black {
         width: columns,
@@ -117,7 +120,7 @@ fn black(level: &BlackLevel, frame: &FrameInfo) -> Black {
     black
 }
 
-/// One sample a pixel: those of the sensor, or the channel of a file that is developed already.
+/// One sample per pixel: that of the sensor, or the chosen channel of a file that is demosaiced already.
 fn samples(decoded: RawFrame, frame: &FrameInfo, channel: Channel) -> Result<Vec<u16>> {
     let pixels = frame.width as usize * frame.height as usize;
     let which = match channel {
@@ -134,7 +137,7 @@ fn samples(decoded: RawFrame, frame: &FrameInfo, channel: Channel) -> Result<Vec
     }
 }
 
-/// Rows of which a part is missing.
+/// First row and end of the rows of which a part is missing.
 fn lost_rows(warning: &DecodeWarning, units: &[DecodeUnit], height: u32) -> [u32; 2] {
     let unit = |index: u32| units.get(index as usize).map_or([0, height], |unit| [unit.rect.y, unit.rect.bottom()]);
     let rows = |of: DataUnit| of.index().map_or([0, height], unit);
@@ -149,17 +152,17 @@ fn lost_rows(warning: &DecodeWarning, units: &[DecodeUnit], height: u32) -> [u32
     }
 }
 
-/// What the decoder refuses, in our words.
+/// The engine's error for an error of the decoder.
 fn refused(fault: Fault, named: &str) -> Error {
     match fault {
-        Fault::UnsupportedFormat(_) => unread(PictureKind::Raw(named.into())),
+        Fault::UnsupportedFormat(_) => unsupported(PictureKind::Raw(named.into())),
         Fault::UnsupportedCompression { format, compression } => {
-            unread(PictureKind::Raw(format!("{format}, {compression}")))
+            unsupported(PictureKind::Raw(format!("{format}, {compression}")))
         }
         Fault::CameraUnsupported { make, model, .. } => {
-            unread(PictureKind::RawCamera(named.into(), format!("{make} {model}")))
+            unsupported(PictureKind::RawCamera(named.into(), format!("{make} {model}")))
         }
-        Fault::CorruptFile { .. } => said(&fault),
-        other => said(&other),
+        Fault::CorruptFile { .. } => engine_error(&fault),
+        other => engine_error(&other),
     }
 }

@@ -142,7 +142,7 @@ fn exif_and_turns_are_told_and_the_grid_stays() {
     assert_eq!(grey, upright);
 }
 
-/// Without its samples a file shows the thumbnail that it carries, as its whole picture would be shown, a little blurred; whole, where the thumbnail
+/// Without its samples a file shows its embedded thumbnail, as its whole picture would be shown, a little blurred; whole, where the thumbnail
 /// is too small, damaged or turned otherwise.
 #[test]
 fn the_thumbnail_that_a_file_carries_is_shown_for_it() {

@@ -21,6 +21,7 @@ use coded_patch::{CodedPatch, Curve, Kind, coded_patch};
 use dng::Dng;
 use nalgebra::{DMatrix, DVector};
 use painter::{Canvas, Spot, Uniform};
+use sightline::decode;
 use sightline::detect::{colours_apart, detect, detect_photo, detect_shot, measure_in_shot};
 use sightline::detection::{Channel, CodeNote, Codes, Colour, DetectOptions, Detection, MeasuredOn, Target};
 use sightline::error::Error;
@@ -28,8 +29,8 @@ use sightline::image::{Grey, Samples};
 use sightline::noise::Noise;
 use sightline::ring_code::Family;
 use sightline::sensor::{self, Shot, Unpacked};
-use sightline::{decode, sample};
 use sightline_codecs::{Wanted, unpack};
+use sightline_lab::sample;
 
 const ORDERS: [&str; 4] = ["RGGB", "GRBG", "GBRG", "BGGR"];
 /// Light of a site of each colour, as a share of what green gets.
@@ -90,7 +91,7 @@ fn radius(row: usize) -> f64 {
     [3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 16.0, 20.0][row]
 }
 
-/// What the sensor reads out.
+/// Read-out of the sensor.
 fn exposed(canvas: &Canvas, camera: Camera, pattern: &'static str, seed: u64) -> Dng {
     let mut noise = Noise::new(seed, 0);
     let (width, height) = (canvas.width, canvas.height);
@@ -399,7 +400,7 @@ fn the_file_is_told_and_shown() {
     assert_eq!(shown.samples, Samples::U16(dng.samples));
 }
 
-/// Lists cut off anywhere, that claim more than there is, or are noise: told as unread, never as no corrections. Up to four bytes there is
+/// Lists cut off anywhere, that claim more than there is, or are noise: reported as unreadable, never as "no corrections". Up to four bytes there is
 /// no more than a count, which names no correction: the decoder takes such a list as empty.
 #[test]
 fn an_unreadable_list_of_corrections_is_told() {

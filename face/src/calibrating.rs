@@ -8,7 +8,7 @@ use sightline::calibration;
 use sightline::error::Error;
 use sightline::project::Camera;
 
-/// What the photos of a camera cover: radius, parts of the picture, rolls, tilts.
+/// Coverage by the photos of a camera: radius, parts of the image, roll, tilt.
 #[wasm_bindgen(js_name = calibrationCoverage, unchecked_return_type = "Coverage")]
 pub fn calibration_coverage(
     #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,

@@ -43,7 +43,7 @@ pub fn init_codecs_sync(
     load_sync(&module)
 }
 
-/// A photo ready to be measured, whoever decodes it.
+/// A photo ready to be measured, from any decoder.
 pub fn shot(bytes: &[u8], channel: Channel) -> Result<Shot> {
     match decode::packed(bytes) {
         None => decode::photo(bytes, channel).map(Shot::Photo),
@@ -51,7 +51,7 @@ pub fn shot(bytes: &[u8], channel: Channel) -> Result<Shot> {
     }
 }
 
-/// What the decoders make of a file of a format that is theirs; without its samples unless they are wanted.
+/// Output of the decoders for a file; without samples unless they are requested.
 pub fn unpack(bytes: &[u8], format: Packed, channel: Channel, samples: bool) -> Result<Unpacked> {
     let name = match channel {
         Channel::Grey => "grey",

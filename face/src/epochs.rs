@@ -8,13 +8,13 @@ use super::{Thrown, value};
 use js_sys::Uint8Array;
 use sightline::Error;
 use sightline::adjustment::Adjustment;
-use sightline::exchange::displacements;
 use sightline::matching::displaced;
 use sightline::monitoring::{Monitoring, Options, Pair};
 use sightline::project::ReportSettings;
-use sightline::report::epochs::report;
+use sightline_exchange::displacements;
+use sightline_report::epochs::report;
 
-/// What is written, and how.
+/// Written file and options.
 #[derive(Serialize, Deserialize)]
 #[serde(default)]
 struct Wanted {

@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 use super::value;
 use sightline::error::Error;
 
-/// What is thrown for an error of the engine.
+/// The JavaScript error for an error of the engine.
 pub fn thrown(error: &Error) -> JsValue {
     let thrown = JsError::new(&error.to_string());
     set(&thrown, "code", &JsValue::from_str(error.code()));

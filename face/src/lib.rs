@@ -4,13 +4,13 @@
 //! ([`sightline::adjustment`], [`sightline::detection`]); `sightline.d.ts` declares them. Arguments of a wrong kind and unknown options are
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
-mod before;
 mod calibrating;
 mod codecs;
 mod epochs;
 mod fault;
 mod photos;
 mod plain;
+mod planning;
 mod stepping;
 mod table;
 mod value;
@@ -21,12 +21,16 @@ use wasm_bindgen::prelude::*;
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
 use sightline::calibration::{CrossOptions, DifferenceOptions, ModelsOptions, UncertaintyOptions};
-use sightline::exchange::foreign::CameraOptions;
-use sightline::experiments::ExperimentOptions;
 use sightline::monitoring::{self, Epoch};
-use sightline::network::Network;
 use sightline::project::{Camera, GivenPoint};
-use sightline::{Error, adjust, calibration, exchange, experiments, features, matching, network, orient, plausibility};
+use sightline::{Error, adjust, calibration, features, matching, orient, plausibility};
+use sightline_exchange as exchange;
+use sightline_exchange::foreign::CameraOptions;
+use sightline_lab::experiments;
+use sightline_lab::experiments::ExperimentOptions;
+use sightline_plan::network;
+use sightline_plan::network::Network;
+use sightline_report::files;
 
 #[wasm_bindgen(typescript_custom_section)]
 const DECLARATIONS: &str = include_str!("sightline.d.ts");
@@ -80,7 +84,7 @@ pub fn spread_codes(#[wasm_bindgen(unchecked_param_type = "CodeFamily")] family:
     }
     let family = value::read::<sightline::ring_code::Family>(&family, "family");
     let spread = family.map(|family| {
-        let sightline::ring_code::Spread { numbers, counts } = sightline::ring_code::spread(family);
+        let sightline::ring_code::CodesByDistance { numbers, counts } = sightline::ring_code::spread(family);
         let counts = counts.into_iter().map(|(distance, codes)| Count { distance, codes }).collect();
         value::write(&Spread { numbers, counts })
     });
@@ -359,7 +363,7 @@ pub fn read_list(
     #[wasm_bindgen(unchecked_optional_param_type = "ListChoices | null")] choices: JsValue,
 ) -> Thrown {
     let read = || {
-        let mut choices: exchange::control_csv::Choices = value::options(&choices, &[])?;
+        let mut choices: exchange::control_csv::TableChoices = value::options(&choices, &[])?;
         let bytes = match list.as_string() {
             Some(text) => {
                 // The characters are known.
@@ -464,7 +468,7 @@ pub fn experiment_csv(#[wasm_bindgen(unchecked_param_type = "Experiment")] exper
     experiment.map(|e| value::files_object(&experiments::csv(&e))).map_err(|error| thrown(&error))
 }
 
-/// Reads files of a foreign format as a project, or as the part of one that the format holds, with what was taken for granted.
+/// Reads files of a foreign format as a project, or as the part of one that the format holds, with the assumptions.
 #[wasm_bindgen(js_name = importProject, unchecked_return_type = "Imported")]
 pub fn import_project(
     #[wasm_bindgen(unchecked_param_type = "ImportFormat")] format: JsValue,
@@ -505,7 +509,7 @@ pub fn export_project(
         let project = value::project(&project)?;
         let absent = adjustment.is_undefined() || adjustment.is_null();
         let adjustment = if absent { None } else { Some(value::read(&adjustment, "adjustment")?) };
-        exchange::export_with(&value::text(&format, "format")?, &project, adjustment.as_ref(), convert)
+        files::export(&value::text(&format, "format")?, &project, adjustment.as_ref(), convert)
     };
     written().map(|files| value::files_object(&files)).map_err(|error: Error| thrown(&error))
 }

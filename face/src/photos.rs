@@ -1,10 +1,9 @@
-//! Photos: their targets, one by one or all, their colours, and what their files say.
+//! Photos: their targets, one by one or all, their lateral colour, and the metadata of their files.
 
 use js_sys::{Uint8Array, Uint16Array};
 use serde::Serialize;
-use sightline::detection::{Channel, ColoursApart, DetectOptions};
+use sightline::detection::{Channel, DetectOptions};
 use sightline::image::{Grey, Samples};
-use sightline::project::{Camera, Project};
 use sightline::sensor::{self, Shot};
 use sightline::{Error, decode, detect, exif};
 use wasm_bindgen::prelude::*;
@@ -54,7 +53,7 @@ fn samples_of(samples: &JsValue) -> sightline::Result<Samples> {
     })
 }
 
-/// Measures the one target at a place of a photo, in a window around it; null where there is none.
+/// Measures the one target at a place of a photo, in a window around it; null if there is none.
 #[wasm_bindgen(js_name = measureAt, unchecked_return_type = "Target | null")]
 pub fn measure_at(
     #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
@@ -76,7 +75,7 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
     measured_at(&u, &v, &options, |_| {
-        Ok(Shot::Photo(decode::Photo {
+        Ok(Shot::Photo(decode::DecodedPhoto {
             grey: grey_of(&width, &height, &samples)?,
             damaged_rows: Vec::new(),
             page: None,
@@ -112,25 +111,7 @@ pub fn colours_apart(
     found().map(|apart| value::write(&apart)).map_err(|error| thrown(&error))
 }
 
-/// What a camera adds to its parameters for photos measured in red or blue, from photos of it whose colours were measured apart: the `colours`
-/// of that camera.
-#[wasm_bindgen(js_name = colourDifferences, unchecked_return_type = "Partial<Record<LensColour, ColourDifferences>>")]
-pub fn colour_differences(
-    #[wasm_bindgen(unchecked_param_type = "Camera")] camera: JsValue,
-    #[wasm_bindgen(unchecked_param_type = "ColoursApart[]")] measured: JsValue,
-) -> Thrown {
-    let found = || {
-        let camera: Camera = value::read(&camera, "camera")?;
-        Project { cameras: vec![camera.clone()], ..Project::default() }.validate()?;
-        let measured: Vec<ColoursApart> = value::read(&measured, "measured")?;
-        let measured: Vec<_> =
-            (0..).zip(measured).map(|(k, apart): (usize, _)| apart.of_photo(&k.to_string())).collect();
-        sightline::camera::colour_differences(&camera, &measured)
-    };
-    found().map(|colours| value::write(&colours)).map_err(|error| thrown(&error))
-}
-
-/// What the file says of a photo and its camera: the size of the stored grid, and EXIF. Hints for initial values.
+/// Metadata of a photo and its camera: the size of the stored grid, and EXIF. Hints for initial values.
 #[wasm_bindgen(js_name = photoInfo, unchecked_return_type = "PhotoInfo")]
 pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue) -> Thrown {
     #[derive(Serialize)]

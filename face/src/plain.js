@@ -1,15 +1,15 @@
-// Arguments as JSON text and bytes. Every value is looked at here, once, before anything is made of it, and nothing is thrown
+// Arguments as JSON text and bytes. Every value is examined here, once, before anything is made of it, and nothing is thrown
 // across the border: what cannot be taken comes back as { path, expected, message }.
 
 /** Deepest nesting of objects and lists. */
 const DEPTH = 32;
-/** Most values of an argument. */
+/** Maximum number of values of an argument. */
 const VALUES = 5e7;
-/** Most characters of all its texts. */
+/** Maximum number of characters of all its texts. */
 const CHARACTERS = 2 ** 28;
-/** Most bytes of a file. */
+/** Maximum number of bytes of a file. */
 const BYTES = 2 ** 31 - 1;
-/** Most files. */
+/** Maximum number of files. */
 const FILES = 20_000;
 
 class Fault {
@@ -21,7 +21,7 @@ class Fault {
 const pathOf = (name, steps) =>
   steps.reduce((path, step) => (typeof step === 'number' ? `${path}[${step}]` : path ? `${path}.${step}` : step), name);
 
-/** What went wrong in reading somebody's object: a getter or a proxy that throws, an array that is gone. */
+/** Error in reading a caller's object: a getter or a proxy that throws, a detached array. */
 function told(name, steps, error) {
   let path = name;
   let message = '';

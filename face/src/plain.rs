@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(module = "/src/plain.js")]
 extern "C" {
-    /// What was read, or what is wrong where.
+    /// The content that was read, or the error with its place.
     type Read;
     #[wasm_bindgen(method, getter)]
     fn text(this: &Read) -> Option<String>;

@@ -59,16 +59,6 @@ export interface OpencvFisheyeInterior {
 
 export type Interior = BrownInterior | OpencvInterior | OpencvRationalInterior | OpencvFisheyeInterior;
 
-/** A colour channel with lateral colour relative to green. */
-export type LensColour = "red" | "blue";
-
-/** Differences of a camera's parameters for a colour, in their own units, with their standard errors where known. */
-export interface ColourDifferences {
-  /** `f` moves fx and keeps the ratio fy : fx. */
-  parameters: Partial<Record<Parameter, number>>;
-  sigma?: Partial<Record<Parameter, number>>;
-}
-
 interface CameraBase {
   id: string | number;
   /** Sensor grid in pixels. */
@@ -82,8 +72,6 @@ interface CameraBase {
   sigma?: Partial<Record<Parameter, number>>;
   /** Whether every photo has its own interior orientation. */
   per_photo?: boolean;
-  /** Added to the parameters for photos measured in another channel than the camera is calibrated in; held. */
-  colours?: Partial<Record<LensColour, ColourDifferences>>;
 }
 
 export type Camera = CameraBase & Interior;
@@ -103,8 +91,6 @@ export interface Photo {
   interior?: Interior | null;
   /** SHA-256 of the file in hexadecimal digits, if known. */
   sha256?: string;
-  /** Channel in which its centres were measured, if red or blue; null: the channel its camera is calibrated in. */
-  colour?: LensColour | null;
 }
 
 export interface Point {
@@ -168,37 +154,6 @@ export interface ReportSettings {
   coverage_factor?: number;
   /** Maximum permitted length measurement error: constant + length / per, in the project's unit. */
   length_limit?: { constant: number; per?: number | null } | null;
-  /** Lateral colour measured photo by photo; reported with the cameras. */
-  colours?: PhotoColours[];
-}
-
-/** Lateral colour of a channel relative to green: pixels outwards at the picture's corner. */
-export interface ColourShift {
-  /** Part that grows with the radius. */
-  linear: number;
-  /** Part that grows with the third power of the radius. */
-  cubic: number;
-  /** Standard error of the sum of both. */
-  sigma: number;
-  /** Rms of the residual differences of the targets. */
-  rms: number;
-  /** Number of targets used. */
-  targets: number;
-  /** Shift of the whole picture, to the right and downwards. */
-  shift?: [number, number];
-  /** Covariances of shift, linear and cubic part, square pixels: the upper triangle, row by row. */
-  covariance?: number[];
-}
-
-/** Lateral chromatic aberration measured on the targets of one photo. */
-export interface PhotoColours {
-  photo: string | number;
-  /** Radius of the picture's corners in pixels. */
-  corner: number;
-  /** Middle of the picture, origin of the radii. */
-  centre?: [number, number];
-  red?: ColourShift | null;
-  blue?: ColourShift | null;
 }
 
 export interface Datum {
@@ -208,7 +163,7 @@ export interface Datum {
 
 /** Cameras on one mount that release together: one relative pose each to the first one, the same at every exposure up to these sigmas. */
 export interface Rig {
-  /** A row an exposure, a column a camera: the photos taken together, null where a camera took none. */
+  /** A row an exposure, a column a camera: the photos taken together, null if a camera took none. */
   exposures: (string | null)[][];
   /** Standard error of the relative position per axis, in the project's unit; greater than 0. */
   sigma_position: number;
@@ -259,17 +214,34 @@ export interface Project {
   plan?: Plan;
   /** The project of epoch 0, with the number of this epoch in the series. */
   epoch?: { name: string; key?: string; number: number; names?: Record<string, string> };
-  /** Files of another program that the project was read from. */
+  /** Files of another program, or of an earlier version, that the project was read from. */
   origin?: Origin;
 }
 
-/** Files of another program that were read, with assumptions, ignored data and conversions. Not an input of the adjustment. */
+/** Files of another program, or of an earlier version (format "sightline"), that were read, with assumptions, ignored data and conversions. Not an input of the adjustment. */
 export interface Origin {
   format: string;
   files?: string[];
   assumed?: Assumed[];
   ignored?: Ignored[];
   conversions?: Conversion[];
+  /** The system that latitudes and longitudes of lists were converted into; give it as `local_system` to read further lists. */
+  local_system?: LocalSystem;
+}
+
+/**
+ * Local Cartesian system on the ellipsoid: X to the east, Y to the north, Z up at the origin, metres, through geocentric coordinates. Not a map
+ * projection.
+ */
+export interface LocalSystem {
+  /** Also for GRS80, which has the same axes to 0.1 mm. */
+  ellipsoid?: "WGS84";
+  /** Degrees, to the north positive. */
+  latitude: number;
+  /** Degrees, to the east positive. */
+  longitude: number;
+  /** Over the ellipsoid, metres. */
+  height: number;
 }
 
 /** An end of a distance or a side of an angle. */
@@ -875,8 +847,21 @@ export interface RelativePose {
   /** Distance of the two projection centres. */
   base: number;
   sigma_base: number | null;
-  /** What each exposure is off: position in the first camera's axes, turn about its own, radians. */
-  exposures: { exposure: number; photos: [string, string]; position: [number, number, number]; rotation: [number, number, number] }[];
+  /** Deviation of each exposure: position in the first camera's axes, rotation about the camera's own axes, radians. */
+  exposures: {
+    exposure: number;
+    photos: [string, string];
+    position: [number, number, number];
+    rotation: [number, number, number];
+    /** Sum of the redundancy numbers, 0 to 6; null without statistics, with one exposure, and under robust weights. */
+    redundancy: number | null;
+    degrees: number | null;
+    /** F statistic of a relative pose of its own. */
+    statistic: number | null;
+    p_value: number | null;
+    /** The most significant one of the rig, beyond 0.001: the mount gave, or the photos were not taken together. */
+    outlier: boolean;
+  }[];
   /** Rms of the deviations per axis with n - 1 exposures; null with one. */
   scatter_position: number | null;
   scatter_rotation: number | null;
@@ -1104,6 +1089,8 @@ export interface Lateral {
   sigma0: number;
   /** Number of targets used. */
   targets: number;
+  /** Whether the shift at some radius exceeds three of its standard errors and 0.02 pixels. */
+  significant: boolean;
   /** Covariances of `shift_u`, `shift_v`, `linear` and `cubic`, square pixels: the upper triangle, row by row. */
   covariance: number[];
 }
@@ -1489,7 +1476,7 @@ export interface TargetSheet {
   /** "sheets.pdf", "targets.csv", and "distances.csv" and "control.csv" if there are any. */
   files: Record<string, Uint8Array>;
   targets: PrintedTarget[];
-  /** Scale bars; sigma is null where the ends are mounted by hand. */
+  /** Scale bars; sigma is null if the ends are mounted by hand. */
   bars: { from: string; to: string; length: number; sigma: number | null }[];
   /** Smallest mutual distance of the codes; null with fewer than two. */
   least_distance: number | null;
@@ -1608,7 +1595,7 @@ export interface PredictedPoint {
   covariance: [number, number, number, number, number, number] | null;
   /** Largest half axis of the standard ellipsoid. */
   axis: number | null;
-  /** Smallest displacement that a comparison with a second campaign like this finds; null where `PlanPrediction.repeated` is null. */
+  /** Smallest displacement that a comparison with a second campaign like this finds; null if `PlanPrediction.repeated` is null. */
   detectable: Detectable | null;
 }
 
@@ -1716,10 +1703,14 @@ export interface ListChoices {
   sigma_unit?: Unit | null;
   /** Common standard error of points without one of their own. */
   sigma?: SigmaRule | null;
+  /** Local system of latitudes and longitudes (`project.origin.local_system` of earlier lists); null: at the rounded mean of the list. */
+  local_system?: LocalSystem | null;
 }
 
 /** Choices of reading. */
 export interface ImportChoices extends ListChoices {
+  /** Width and height of photos by file name, for formats without them (`realitycapture`); a photo given among the files needs none. */
+  sizes?: Record<string, [number, number]>;
   /** Accept a camera whose converted model differs by more than 1 px; default false. */
   convert?: boolean;
 }
@@ -1811,7 +1802,7 @@ export interface ExportedCamera {
 }
 
 export type Unit = "mm" | "cm" | "m" | "µm" | "dm" | "km" | "in" | "ft" | "ft-us" | "yd";
-export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "sX" | "sY" | "sZ" | "sXY" | "sigma" | "role" | "diameter";
+export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "latitude" | "longitude" | "sX" | "sY" | "sZ" | "sXY" | "sigma" | "role" | "diameter";
 export type TextEncodingName = "utf-8" | "utf-16" | "cp949" | "windows-1252";
 export type ListFormat = "table" | "leica_gsi" | "sokkia_sdr" | "job_xml" | "land_xml" | "odm_gcp";
 /** Basis of an assumption; "undecided": ask the user. */
@@ -1834,6 +1825,8 @@ export type Assumption =
   | { kind: "decimal_sign"; sign: "point" | "comma"; by: Basis; example?: string }
   | { kind: "columns"; columns: (ControlField | null)[]; by: Basis }
   | { kind: "axis_order"; order: "xy" | "yx"; by: Basis }
+  /** Latitudes, longitudes and heights, taken as ellipsoidal, converted to metres; "convention": the origin is the rounded mean of the list. */
+  | { kind: "local_system"; system: LocalSystem; form: "degrees" | "sexagesimal"; height_unit: Unit; by: Basis }
   | { kind: "sigma_columns"; columns: number[]; by: Basis }
   | { kind: "unit"; unit: Unit | null; by: Basis }
   /** Columns with unknown headings, which are not used. */
@@ -1854,7 +1847,7 @@ export interface Imported extends Project {
   ignored?: Ignored[];
 }
 
-export type ImportFormat = "sightline" | "package" | "control-csv" | "distances" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "nvm" | "opensfm" | "pix4d" | "vstars";
+export type ImportFormat = "sightline" | "package" | "control-csv" | "distances" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "nvm" | "opensfm" | "pix4d" | "realitycapture" | "vstars";
 export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "spreadsheet" | "spreadsheet-cp949" | "calibration" | "dxf" | "dxf-2010" | "landxml" | "ply" | "gltf" | "colmap" | "colmap-binary" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars" | "opencv";
 
 /** A parameter of a fit. */
@@ -2001,7 +1994,7 @@ export interface UncertaintyOptions {
   reference?: MotionReference;
 }
 
-/** Result of `projectionUncertainty`. Maps are rows of `v` of columns `u`; null where the model gives no ray. */
+/** Result of `projectionUncertainty`. Maps are rows of `v` of columns `u`; null if the model gives no ray. */
 export interface ProjectionUncertainty {
   camera: string;
   photo?: string;
@@ -2063,7 +2056,7 @@ export interface CrossPart {
   camera: AdjustedCamera;
 }
 
-/** Result of `crossValidate`. Maps are rows of `v` of columns `u`; null where a part gives no ray. */
+/** Result of `crossValidate`. Maps are rows of `v` of columns `u`; null if a part gives no ray. */
 export interface CrossValidation {
   camera: string;
   parts: CrossPart[];
@@ -2105,13 +2098,13 @@ export interface ModelConversion {
   dropped: Parameter[];
 }
 
-/** Result of `convertCamera`: the camera, the interior orientations of its photos and its lateral colour in the other model. */
+/** Result of `convertCamera`: the camera and the interior orientations of its photos in the other model. */
 export interface ConvertedCamera {
   project: Project;
   conversion: ModelConversion;
 }
 
-/** What `calibrationCoverage` gives. */
+/** Result of `calibrationCoverage`. */
 export interface Coverage {
   camera: string;
   /** Photos with measurements that take part. */
@@ -2172,8 +2165,10 @@ export interface CompareOptions {
   /** Null: the control points, else the datum points of the projects, else all common points that are not numbered automatically. */
   reference?: (string | number)[] | null;
   ignored?: (string | number)[];
-  /** `joint`: the stable reference points of a pair get one set of coordinates, cameras are one per epoch. */
+  /** `joint`: the stable reference points have one set of coordinates; more than two projects, or shared cameras: in one bundle adjustment of all epochs. */
   method?: "coordinates" | "joint";
+  /** Cameras with one interior orientation in all epochs; needs `method: "joint"` and projects. None by default: cameras are one per epoch. */
+  shared_cameras?: (string | number)[];
   /** 0.05. */
   significance?: number;
   /** Correction for the number of object points. */
@@ -2264,7 +2259,9 @@ export type LeftOutOfPair =
 
 /** Notes on the comparison of a pair. */
 export type PairNote =
-  | { code: "variances_differ" | "scale_differs" | "no_stable_group" }
+  | { code: "variances_differ" | "scale_differs" | "no_stable_group" | "not_joint" }
+  | { code: "too_many_together"; points: number; limit: number }
+  | { code: "camera_differs"; camera: string }
   | { code: "sigmas_too_small"; factor: number }
   | { code: "no_majority"; stable: number; reference: number }
   | { code: "another_group" | "second_opinion_differs" | "weakly_controlled"; points: string[] };
@@ -2281,7 +2278,7 @@ export interface EpochPair {
   /** Null: infinite. */
   redundancy: number | null;
   reference_from: "named" | "control" | "datum" | "common";
-  /** Lengths of the later epoch over those of the earlier one; null where one has no scale. */
+  /** Lengths of the later epoch over those of the earlier one; null if one has no scale. */
   scale: { value: number; sigma: number; test: MonitoringTest } | null;
   global_test: MonitoringTest | null;
   /** Backward elimination; `test` is that of the remaining points. */
@@ -2311,16 +2308,25 @@ export interface EpochsExport {
   settings?: ReportSettings;
 }
 
-/** What `displacementsInPhotos` gives for a photo, pixels. */
+/** Result of `displacementsInPhotos` for a photo, pixels. */
 export interface PhotoDisplacements {
   photo: string;
-  /** From the point to its place displaced by the factor; length in the unit of the epochs. Ends behind the camera are left out. */
+  /** From the point to its place displaced by the factor; length in the unit of the epochs. */
   vectors: { point: string; from: [number, number]; to: [number, number]; length: number; moved: boolean }[];
+  /** Points whose displacement ends where the camera has no image of it at this factor: choose a smaller one. */
+  not_drawn: string[];
 }
 
 /** Result of `compareEpochs`. */
 export interface Monitoring {
   method: "coordinates" | "joint";
+  /** One adjustment of all epochs; absent if the epochs were compared in pairs. `test`: one interior orientation against one per epoch, null if nothing of it is estimated. */
+  joint?: {
+    points: string[];
+    cameras: { id: string; test: MonitoringTest | null }[];
+    sigma0: number | null;
+    redundancy: number;
+  };
   unit: string | null;
   /** Letters and order of coordinates, as the first project that says them. */
   axes?: "enh" | "neh";
@@ -2348,7 +2354,7 @@ export interface Monitoring {
     /** By the length of the last displacement; null without thresholds. */
     state: "quiet" | "warning" | "alarm" | null;
   }[];
-  /** Reference points stable in all pairs with the first epoch; empty where fewer than four are. */
+  /** Reference points stable in all pairs with the first epoch; empty if fewer than four are. */
   series_datum: string[];
 }
 

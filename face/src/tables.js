@@ -27,7 +27,7 @@ const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 const isTarget = (value) => Number.isInteger(value) && value > 0 && value < 2 ** 32;
 const isRow = (row) => typeof row === 'object' && row !== null && !Array.isArray(row);
 
-/** Most rows of a table: their columns are made before the rows are looked at. */
+/** Maximum number of rows of a table: their columns are made before the rows are examined. */
 const ROWS = 2e7;
 
 const named = (id) => (typeof id === 'string' ? id : typeof id === 'number' ? String(id) : undefined);

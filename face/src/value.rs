@@ -12,10 +12,10 @@ use sightline::adjustment::Adjustment;
 use sightline::calibration::ModelConversion;
 use sightline::detection::Detection;
 use sightline::error::{Error, Expected, Names, Place, Reason, Result, shortened};
-use sightline::exchange::{self, Files, Imported};
 use sightline::image::{Grey, Samples};
 use sightline::orient::Oriented;
-use sightline::project::Project;
+use sightline::project::{Project, RemovedFields};
+use sightline_exchange::{self as exchange, Files, Imported};
 
 /// An error in a named field.
 pub fn invalid(field: &str, reason: Reason) -> Error {
@@ -102,7 +102,7 @@ pub fn callback(options: &JsValue, name: &str) -> Result<Option<Function>> {
     value.dyn_into().map(Some).map_err(|_| not(name, Expected::Function))
 }
 
-/// What tells a document from anything else.
+/// Field that identifies a document.
 #[derive(Deserialize)]
 struct Head {
     format: Option<serde_json::Value>,
@@ -118,6 +118,7 @@ pub fn project(value: &JsValue) -> Result<Project> {
     let Head { format, version } = of_json(&text, "")?;
     exchange::check_head(format.as_ref(), version.as_ref())?;
     let mut project: Project = of_json(&text, "")?;
+    RemovedFields::of(&text).note_in(&mut project);
     project.observations = table::observations(&plain::field(value, "observations")?)?.into();
     project.points = table::points(&plain::field(value, "points")?)?.into();
     Ok(project)
@@ -140,7 +141,7 @@ pub fn converted_object(project: Project, conversion: &ModelConversion) -> JsVal
     object.into()
 }
 
-/// An imported document as plain objects, with what was taken for granted among its fields where the format leaves something open.
+/// An imported document as plain objects, with the assumptions among its fields where the format leaves something open.
 pub fn imported_object(imported: Imported) -> JsValue {
     let Imported { project, assumptions, recognised, conversions, notes } = imported;
     let object = project_object(project);

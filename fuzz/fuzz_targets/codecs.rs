@@ -18,7 +18,7 @@ fuzz_target!(|data: &[u8]| {
     let Ok(shot) = unpack(file, Wanted::samples(channel)).and_then(Unpacked::into_shot) else { return };
     let _ = sensor::picture(&shot, 320);
     let _ = sensor::part(&shot, [usize::from(*choice), 0], 64);
-    // what is large takes long to search and is no other code
+    // large inputs take long to search and reach no other code
     if shot.bytes() < 1 << 20 {
         let _ = detect_shot(&shot, &DetectOptions { channel, ..DetectOptions::default() });
     }

@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
 use sightline::detect::detect;
 use sightline::detection::DetectOptions;
-use sightline::exchange::package::Package;
-use sightline::exchange::foreign::CameraOptions;
-use sightline::exchange::{Files, cameras, comparator, encoding, export, import, package};
+use sightline_exchange::package::Package;
+use sightline_exchange::foreign::CameraOptions;
+use sightline_exchange::{Choices, Files, Imported, cameras, comparator, encoding, export, import, import_files, package};
 use sightline::exif;
 use sightline::image::{GreyView, SamplesView};
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Sigma};
@@ -46,7 +46,7 @@ const CAMERAS: [(&str, &str); 8] = [
     ("auto", "a"),
 ];
 /// More formats that are read, after those of cameras: seeds keep their first byte.
-const LATER: [(&str, &str); 3] = [("nvm", "a.nvm"), ("opensfm", "a.json"), ("pix4d", "a.txt")];
+const LATER: [(&str, &str); 4] = [("nvm", "a.nvm"), ("opensfm", "a.json"), ("pix4d", "a.txt"), ("realitycapture", "a.xmp")];
 const WRITTEN: [&str; 21] = [
     "sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf", "colmap", "colmap-binary", "metashape", "bal", "bundler",
     "meshroom", "vstars", "spreadsheet", "spreadsheet-cp949", "calibration", "dxf-2010", "landxml",
@@ -142,7 +142,9 @@ fuzz_target!(|data: &[u8]| {
     }
     let (format, name) = later.unwrap_or_else(|| READ[choice]);
     let files = if format == "package" { Files::from([(name.to_owned(), rest.to_vec())]) } else { job(name, rest) };
-    if let Ok(project) = import(format, &files) {
+    // A format without image sizes needs that of a photo.
+    let choices = Choices { sizes: BTreeMap::from([("a.jpg".to_owned(), [40, 30])]), ..Choices::default() };
+    if let Ok(Imported { project, .. }) = import_files(format, &files, &choices) {
         for format in WRITTEN {
             let Ok(mut written) = export(format, &project, None) else { continue };
             written.remove("interchange.json");

@@ -17,7 +17,7 @@ mod basis;
 mod gram;
 
 use crate::adjust::equations::right_hand_side::weighted_residuals;
-use crate::adjust::problem::state::Step;
+use crate::adjust::problem::step::Step;
 use crate::adjust::solve::session::Session;
 use crate::adjustment::{AdjustOptions, Advice, PatternKind, Remedy, ResidualPattern, ResidualPlace};
 use crate::project::{Camera, CameraModel, Parameter};
@@ -49,8 +49,8 @@ const NUMBERS: usize = 4_000_000;
 /// Observations that are tested by themselves.
 const SINGLES: usize = 10;
 
-/// A pattern as it competes.
-struct Candidate {
+/// A pattern to be tested.
+struct PatternCandidate {
     kind: PatternKind,
     camera: usize,
     /// Fields; of single observations those of one.
@@ -63,8 +63,8 @@ struct Candidate {
 }
 
 /// A candidate with its test.
-struct Tested {
-    candidate: Candidate,
+struct TestedPattern {
+    candidate: PatternCandidate,
     lowered: f64,
     degrees: usize,
     statistic: f64,
@@ -80,13 +80,13 @@ struct Squares {
 }
 
 impl Squares {
-    fn test(&self, gram: &Gram, candidate: Candidate) -> Option<Tested> {
+    fn test(&self, gram: &Gram, candidate: PatternCandidate) -> Option<TestedPattern> {
         let (lowered, degrees) = gram.explained(&candidate.fields);
         self.judge(candidate, lowered, degrees)
     }
 
-    /// None without fields that the unknowns leave, or with too few degrees of freedom beside them.
-    fn judge(&self, candidate: Candidate, lowered: f64, degrees: usize) -> Option<Tested> {
+    /// `None` without fields that the unknowns leave, or with too few degrees of freedom beside them.
+    fn judge(&self, candidate: PatternCandidate, lowered: f64, degrees: usize) -> Option<TestedPattern> {
         let others = self.redundancy.checked_sub(degrees).filter(|others| *others >= LEFT && degrees > 0)? as f64;
         // rounding may leave nothing or less
         let left = (self.sum - lowered).max(1e-12 * self.sum);
@@ -94,7 +94,7 @@ impl Squares {
         let statistic = lowered.max(0.0) / k / (left / others);
         let p_value = (candidate.choices * Fisher::new(degrees, Some(others)).tails(statistic)[1]).min(1.0);
         let bic = r * left.ln() + k * r.ln() + 2.0 * candidate.choices.ln();
-        (self.sum > 0.0 && statistic.is_finite()).then_some(Tested {
+        (self.sum > 0.0 && statistic.is_finite()).then_some(TestedPattern {
             candidate,
             lowered,
             degrees,
@@ -109,7 +109,7 @@ impl Squares {
     }
 
     /// The part of eᵀPe that a pattern has beyond what chance gives it.
-    fn share(&self, tested: &Tested) -> f64 {
+    fn share(&self, tested: &TestedPattern) -> f64 {
         let noise = self.without(tested.lowered, tested.degrees);
         let by_chance = tested.degrees as f64 * noise.sum / noise.redundancy.max(1) as f64;
         (tested.lowered - by_chance) / self.sum
@@ -151,14 +151,17 @@ fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Ste
     for _ in 0..=basis.singles {
         let tested = candidates(&basis, &gram, &squares);
         let limit = FALSE_NAMES / KINDS / basis.cameras.len() as f64;
-        let significant: Vec<&Tested> = tested.iter().filter(|t| t.p_value < limit).collect();
+        let significant: Vec<&TestedPattern> = tested.iter().filter(|t| t.p_value < limit).collect();
         let Some(best) = significant.iter().min_by(|a, b| a.bic.total_cmp(&b.bic)) else { break };
         if !best.candidate.is_single {
-            let near = |t: &&&Tested| {
+            let near = |t: &&&TestedPattern| {
                 let same = !t.candidate.is_single && t.candidate.camera == best.candidate.camera;
                 same && t.lowered >= (1.0 - HIGHER_ORDER) * best.lowered && t.degrees <= best.degrees
             };
-            let best = significant.iter().filter(near).min_by_key(|t| t.degrees).unwrap_or(best);
+            // Of as many fields the one that explains more.
+            let fewer =
+                |a: &&&TestedPattern, b: &&&TestedPattern| a.degrees.cmp(&b.degrees).then(a.bic.total_cmp(&b.bic));
+            let best = significant.iter().filter(near).min_by(fewer).unwrap_or(best);
             if squares.share(best) >= WORTH_NAMING {
                 name = Some((best.candidate.kind, best.candidate.camera));
             }
@@ -167,9 +170,9 @@ fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Ste
         let (lowered, degrees) = gram.sweep(&best.candidate.fields);
         squares = squares.without(lowered, degrees);
     }
-    let mut rows: Vec<Tested> = Vec::new();
+    let mut rows: Vec<TestedPattern> = Vec::new();
     for tested in candidates(&basis, &gram, &squares).into_iter().filter(|t| !t.candidate.is_single) {
-        let same = |row: &&mut Tested| {
+        let same = |row: &&mut TestedPattern| {
             (row.candidate.kind, row.candidate.camera) == (tested.candidate.kind, tested.candidate.camera)
         };
         match rows.iter_mut().find(same) {
@@ -178,8 +181,8 @@ fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Ste
             None => rows.push(tested),
         }
     }
-    let row = |tested: &Tested| {
-        let Candidate { kind, camera, fields, .. } = &tested.candidate;
+    let row = |tested: &TestedPattern| {
+        let PatternCandidate { kind, camera, fields, .. } = &tested.candidate;
         let amounts: Vec<(usize, f64)> = fields.iter().copied().zip(gram.amounts(fields)).collect();
         let mut photos = tested.candidate.photos.clone();
         if *kind == PatternKind::Photo && photos.is_empty() {
@@ -231,10 +234,10 @@ fn largest(residuals: &[[f64; 2]]) -> Vec<usize> {
 }
 
 /// Every pattern with its test.
-fn candidates(basis: &Basis, gram: &Gram, squares: &Squares) -> Vec<Tested> {
+fn candidates(basis: &Basis, gram: &Gram, squares: &Squares) -> Vec<TestedPattern> {
     let mut all = Vec::new();
     let mut add = |kind, camera, fields: Vec<usize>| {
-        let candidate = Candidate { kind, camera, fields, photos: Vec::new(), choices: 1.0, is_single: false };
+        let candidate = PatternCandidate { kind, camera, fields, photos: Vec::new(), choices: 1.0, is_single: false };
         all.extend(squares.test(gram, candidate));
     };
     for camera in 0..basis.cameras.len() {
@@ -258,7 +261,7 @@ fn candidates(basis: &Basis, gram: &Gram, squares: &Squares) -> Vec<Tested> {
         all.extend(single_photos(basis, gram, squares, camera));
     }
     for single in 0..basis.singles {
-        let candidate = Candidate {
+        let candidate = PatternCandidate {
             kind: PatternKind::Photo,
             camera: 0,
             fields: basis.of_single(single).collect(),
@@ -274,7 +277,7 @@ fn candidates(basis: &Basis, gram: &Gram, squares: &Squares) -> Vec<Tested> {
 
 /// The photos of a camera that have an interior orientation of their own: one after the other, as long as chance does not explain the next
 /// one, and fewer than half of them.
-fn single_photos(basis: &Basis, gram: &Gram, squares: &Squares, camera: usize) -> Option<Tested> {
+fn single_photos(basis: &Basis, gram: &Gram, squares: &Squares, camera: usize) -> Option<TestedPattern> {
     let own: Vec<usize> = (0..basis.photos.len()).filter(|k| basis.photos[*k].1 == camera).collect();
     if own.len() < 2 {
         return None;
@@ -287,7 +290,7 @@ fn single_photos(basis: &Basis, gram: &Gram, squares: &Squares, camera: usize) -
     while open.len() * 2 > own.len() {
         let next = open.iter().map(|n| (*n, left.explained(&of(*n))));
         let Some((n, (by, k))) = next.max_by(|a, b| a.1.0.total_cmp(&b.1.0)) else { break };
-        let candidate = Candidate {
+        let candidate = PatternCandidate {
             kind: PatternKind::Photo,
             camera,
             fields: Vec::new(),
@@ -309,12 +312,13 @@ fn single_photos(basis: &Basis, gram: &Gram, squares: &Squares, camera: usize) -
     }
     chosen.sort_unstable();
     let fields = chosen.iter().flat_map(|k| basis.interior(*k)).collect();
-    let candidate = Candidate { kind: PatternKind::Photo, camera, fields, photos: chosen, choices, is_single: false };
+    let candidate =
+        PatternCandidate { kind: PatternKind::Photo, camera, fields, photos: chosen, choices, is_single: false };
     squares.judge(candidate, lowered, degrees)
 }
 
 /// The tested photos of a camera whose own interior orientation is more than [`ODD`] times as far from the median as that of the median
-/// photo. Empty where these are half of the photos or more.
+/// photo. Empty if these are half of the photos or more.
 fn odd_photos(basis: &Basis, gram: &Gram, camera: usize) -> Vec<usize> {
     let own: Vec<usize> = (0..basis.photos.len()).filter(|k| basis.photos[*k].1 == camera).collect();
     let fields: Vec<usize> = own.iter().flat_map(|k| basis.interior(*k)).collect();

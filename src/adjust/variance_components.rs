@@ -14,7 +14,7 @@
 //!
 //! Standard errors: σ(f) = f·√(2/Σr), or the inverse of Fisher's information of both.
 
-use crate::adjust::problem::additional::{self, Observed};
+use crate::adjust::problem::additional::{self, AdditionalObservation};
 use crate::adjust::solve::session::{Log, Session};
 use crate::adjustment::{
     AdjustOptions, NotEstimated, ObservationGroup, StatisticsChoice, Termination, VarianceComponent, VarianceComponents,
@@ -33,13 +33,13 @@ const LEAST_REDUNDANCY: f64 = 10.0;
 const DIFFERENT: f64 = 1.3;
 /// Residuals of exact observations are rounding: their variance has an end.
 const LEAST_FACTOR: f64 = 1e-12;
-/// Most that one round changes a variance.
+/// Maximum factor by which one round changes a variance.
 const LARGEST_CHANGE: f64 = 100.0;
 
-struct Group {
+struct VarianceGroup {
     what: ObservationGroup,
     rays: Vec<usize>,
-    given: Vec<Observed>,
+    given: Vec<AdditionalObservation>,
     /// Variance factor so far.
     factor: f64,
     /// Variance of what is not modelled so far, px².
@@ -50,16 +50,16 @@ struct Group {
     not_estimated: Option<NotEstimated>,
 }
 
-/// What one round says of a group.
+/// Result of one round for a group.
 struct Round {
     factor: f64,
     unmodelled: Option<f64>,
     errors: [f64; 2],
 }
 
-fn groups(session: &Session<'_>, choice: &VarianceComponents) -> Vec<Group> {
+fn groups(session: &Session<'_>, choice: &VarianceComponents) -> Vec<VarianceGroup> {
     let network = &session.network;
-    let mut groups: Vec<Group> = Vec::new();
+    let mut groups: Vec<VarianceGroup> = Vec::new();
     let mut place = |what: ObservationGroup| match groups.iter().position(|group| group.what == what) {
         Some(at) => at,
         None => {
@@ -68,7 +68,7 @@ fn groups(session: &Session<'_>, choice: &VarianceComponents) -> Vec<Group> {
                 _ => None,
             };
             let (rays, given) = (Vec::new(), Vec::new());
-            groups.push(Group {
+            groups.push(VarianceGroup {
                 what,
                 rays,
                 given,
@@ -92,10 +92,10 @@ fn groups(session: &Session<'_>, choice: &VarianceComponents) -> Vec<Group> {
         of_given.push((
             observed,
             place(match observed {
-                Observed::Control(..) => ObservationGroup::Control,
-                Observed::Position(..) => ObservationGroup::Position,
-                Observed::Distance(..) => ObservationGroup::Distance,
-                Observed::Parameter(..) => ObservationGroup::Parameter,
+                AdditionalObservation::Control(..) => ObservationGroup::Control,
+                AdditionalObservation::Position(..) => ObservationGroup::Position,
+                AdditionalObservation::Distance(..) => ObservationGroup::Distance,
+                AdditionalObservation::Parameter(..) => ObservationGroup::Parameter,
             }),
         ));
     }
@@ -104,7 +104,7 @@ fn groups(session: &Session<'_>, choice: &VarianceComponents) -> Vec<Group> {
     groups
 }
 
-/// Estimates the components from a converged state and leaves the session adjusted with them. The flag says whether they
+/// Estimates the components from a converged state and leaves the session adjusted with them. The flag is whether they
 /// settled; where they did not, the last ones are in force.
 ///
 /// # Errors
@@ -184,7 +184,7 @@ pub fn estimate(
             break;
         }
     }
-    let component = |group: Group| {
+    let component = |group: VarianceGroup| {
         let told = group.not_estimated.is_none();
         let squares: f64 = group.rays.iter().flat_map(|ray| sigma_px[*ray]).map(|sigma| sigma * sigma).sum();
         let root = |variance: f64, error: f64| {
@@ -208,14 +208,14 @@ pub fn estimate(
     Ok((groups.into_iter().map(component).collect(), settled))
 }
 
-fn single(group: &Group, squares: f64) -> Round {
+fn single(group: &VarianceGroup, squares: f64) -> Round {
     let quotient = (squares / group.redundancy).clamp(1.0 / LARGEST_CHANGE, LARGEST_CHANGE);
     let factor = (group.factor * quotient).max(LEAST_FACTOR);
     Round { factor, unmodelled: None, errors: [factor * (2.0 / group.redundancy).sqrt(), 0.0] }
 }
 
 /// One step of Fisher's scoring for f and u², both kept from becoming negative; `list` has e², r and σ.
-fn both(group: &Group, unmodelled: f64, list: &[(f64, f64, f64)]) -> Round {
+fn both(group: &VarianceGroup, unmodelled: f64, list: &[(f64, f64, f64)]) -> Round {
     let sizes = || list.iter().map(|(_, _, sigma)| *sigma);
     let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
     if most < DIFFERENT * least {

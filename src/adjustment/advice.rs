@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::{Given, ImplausibleCamera, MirroredControl, OneStation, PatternKind, Remedy, UndecidedAxes, UnitRatio};
 use crate::project::Parameter;
 
-/// What a solvable network is weak in, as data; the desk says it in its user's language.
+/// Weaknesses of a solvable network, as data; the desk writes them in the user's language.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Advice {
-    /// Two parameters are hardly told apart: correlation beyond 0.95.
+    /// Two parameters are strongly correlated: correlation beyond 0.95.
     HighCorrelation {
         /// Camera identifier.
         camera: String,
@@ -40,7 +40,7 @@ pub enum Advice {
         /// Point and largest acute angle between its rays in radians.
         points: Vec<(String, f64)>,
     },
-    /// Points behind the camera that is said to see them.
+    /// Points behind a camera in which they were measured.
     BehindCamera {
         /// Photo and point of each.
         observations: Vec<(String, String)>,
@@ -73,7 +73,7 @@ pub enum Advice {
     ResidualPattern {
         /// Camera identifier.
         camera: String,
-        /// What they depend on.
+        /// Quantities on which they depend.
         pattern: PatternKind,
         /// Photos that it is about; empty: all.
         photos: Vec<String>,
@@ -85,25 +85,25 @@ pub enum Advice {
         max_px: f64,
         /// σ0 without the pattern.
         sigma0: f64,
-        /// What to do.
+        /// Remedy.
         remedy: Remedy,
     },
-    /// The residuals are larger than the standard errors of the image coordinates say: σ0 is beyond [`Criteria::sigma0`](super::Criteria::sigma0) and
+    /// The residuals are larger than the standard errors of the image coordinates: σ0 is beyond [`Criteria::sigma0`](super::Criteria::sigma0) and
     /// its test failed.
     SigmasTooSmall {
         /// Standard deviation of unit weight.
         sigma0: f64,
-        /// Standard deviation of what is not modelled with which they would agree, pixels; null where it cannot be told.
+        /// Standard deviation of what is not modelled with which they would agree, pixels; null if it cannot be determined.
         unmodelled: Option<f64>,
     },
-    /// σ0 fails its test although `unmodelled` was given: it came from weights that are no longer in use.
+    /// σ0 fails its test although `unmodelled` was given: it was estimated with other weights.
     UnmodelledAgain {
         /// Standard deviation of unit weight.
         sigma0: f64,
         /// The value to take instead, pixels.
         unmodelled: f64,
     },
-    /// A parameter of distortion that is not told from 0 ([`Criteria::significance`](super::Criteria::significance)).
+    /// A parameter of distortion that is not significantly different from 0 ([`Criteria::significance`](super::Criteria::significance)).
     Insignificant {
         /// Camera identifier.
         camera: String,
@@ -114,7 +114,7 @@ pub enum Advice {
         parameter: Parameter,
         /// Its size in standard errors.
         ratio: f64,
-        /// The parameter it is most correlated with; null where it is estimated alone.
+        /// The parameter it is most correlated with; null if it is estimated alone.
         #[serde(default)]
         with: Option<Parameter>,
         /// Their correlation.
@@ -145,30 +145,30 @@ pub enum Advice {
         /// The points.
         points: [String; 2],
     },
-    /// Points nearer to each other than their standard errors tell apart: one target under two names, most often.
+    /// Points nearer to each other than their standard errors can separate: one target under two names, most often.
     DoublePoints {
         /// The pairs.
         pairs: Vec<(String, String)>,
     },
     /// Given coordinates are a mirror image of what the photos show.
     MirroredControl(MirroredControl),
-    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    /// Given points lie in a plane, and nothing shows whether their axes are mirrored.
     UndecidedAxes(UndecidedAxes),
     /// Something seems to be given in another unit than the rest.
     UnitRatio(UnitRatio),
     /// Photos were taken from one place.
     OneStation(OneStation),
-    /// A camera cannot be what it is said to be.
+    /// A given camera is implausible.
     ImplausibleCamera(ImplausibleCamera),
     /// Nothing gives a scale: lengths are right relative to each other only and have no unit.
     NoScale,
 }
 
 impl Advice {
-    /// Most image observations that a suspicion names.
+    /// Maximum number of image observations that a suspicion names.
     pub const SUSPECTS: usize = 20;
 
-    /// Whether it says that something given contradicts the photos. sigma0 and the global test may not show it, so that it stands beside them
+    /// Whether it means that a given value contradicts the photos. sigma0 and the global test may not show that, so it is shown beside them
     /// wherever they are stated.
     pub fn contradicts(&self) -> bool {
         match self {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::Correlation;
-use crate::project::{Camera, ColourDifferences, Interior, LensColour, Parameter};
+use crate::project::{Camera, Interior, Parameter};
 
 /// An adjusted camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,8 +40,6 @@ struct Written {
     sigma_a_priori: BTreeMap<Parameter, f64>,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     per_photo: bool,
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    colours: BTreeMap<LensColour, ColourDifferences>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     photo: Option<String>,
     sigma: BTreeMap<Parameter, f64>,
@@ -53,8 +51,7 @@ struct Written {
 impl From<AdjustedCamera> for Written {
     fn from(adjusted: AdjustedCamera) -> Self {
         let AdjustedCamera { camera, photo, sigma, significance, correlation } = adjusted;
-        let Camera { id, width, height, pixel_pitch, interior, free, sigma: sigma_a_priori, per_photo, colours } =
-            camera;
+        let Camera { id, width, height, pixel_pitch, interior, free, sigma: sigma_a_priori, per_photo } = camera;
         Self {
             id,
             width,
@@ -64,7 +61,6 @@ impl From<AdjustedCamera> for Written {
             free,
             sigma_a_priori,
             per_photo,
-            colours,
             photo,
             sigma,
             significance,
@@ -75,18 +71,9 @@ impl From<AdjustedCamera> for Written {
 
 impl From<Written> for AdjustedCamera {
     fn from(written: Written) -> Self {
-        let Written { id, width, height, pixel_pitch, interior, free, per_photo, colours, .. } = written;
-        let camera = Camera {
-            id,
-            width,
-            height,
-            pixel_pitch,
-            interior,
-            free,
-            sigma: written.sigma_a_priori,
-            per_photo,
-            colours,
-        };
+        let Written { id, width, height, pixel_pitch, interior, free, per_photo, .. } = written;
+        let camera =
+            Camera { id, width, height, pixel_pitch, interior, free, sigma: written.sigma_a_priori, per_photo };
         Self {
             camera,
             photo: written.photo,

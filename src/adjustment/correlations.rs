@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Advice;
 use crate::project::Parameter;
 
-/// Two parameters that are hardly told apart.
+/// Two parameters that are strongly correlated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CorrelatedPair {
     /// Name of one parameter.
@@ -16,7 +16,7 @@ pub struct CorrelatedPair {
     pub correlation: f64,
 }
 
-/// The parameters of a camera that are hardly told apart, or those of a photo from its camera's.
+/// The parameters of a camera that are strongly correlated, or those of a photo with its camera's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CorrelationGroup {
     /// Camera identifier.

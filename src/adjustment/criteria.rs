@@ -6,11 +6,11 @@ use crate::project::Parameter;
 use crate::statistics::distribution::{ALPHA, GLOBAL_ALPHA, POWER, critical_tau, critical_w, noncentrality};
 use crate::statistics::reliability::UNCHECKED;
 
-/// Correlations beyond this are told.
+/// Correlations above this are reported.
 pub(crate) const HIGH_CORRELATION: f64 = 0.95;
-/// Redundancy numbers below this are told.
+/// Redundancy numbers below this are reported.
 pub(crate) const LOW_REDUNDANCY: f64 = 0.1;
-/// Rays that meet under less than this are told, in radians.
+/// Smaller intersection angles than this are reported, radians.
 pub(crate) const NARROW_INTERSECTION: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// The limits that observations, parameters and the network are judged by.
@@ -33,13 +33,13 @@ pub struct Criteria {
     pub unchecked: f64,
     /// Observations with a smaller redundancy number are hardly checked.
     pub low_redundancy: f64,
-    /// Parameters with a larger |correlation| are hardly told apart.
+    /// Parameters with a larger |correlation| are strongly correlated.
     pub high_correlation: f64,
     /// Rays that meet under a smaller angle determine no depth, radians.
     pub narrow_intersection: f64,
-    /// Parameters of distortion below so many of their standard errors are not told from 0.
+    /// Parameters of distortion below so many of their standard errors are not significantly different from 0.
     pub significance: f64,
-    /// A σ0 beyond this, with the global test failed, says that the standard errors of the image coordinates are too small.
+    /// A σ0 beyond this, with the global test failed, means that the standard errors of the image coordinates are too small.
     pub sigma0: f64,
 }
 
@@ -69,7 +69,7 @@ impl Default for Criteria {
     }
 }
 
-/// Whether a parameter is one of distortion, whose neutral value is 0: only of these it means something not to be told from 0.
+/// Whether a parameter is one of distortion, whose neutral value is 0: only of these it means something not to be significantly different from 0.
 pub(crate) fn is_distortion(parameter: Parameter) -> bool {
     use Parameter as P;
     matches!(parameter, P::K1 | P::K2 | P::K3 | P::K4 | P::K5 | P::K6 | P::P1 | P::P2 | P::B1 | P::B2)

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
-/// What the one figure of a feature is.
+/// Meaning of the value of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -31,7 +31,7 @@ pub struct MeasuredFeature {
     /// Distance, angle or diameter.
     #[serde(default)]
     pub value: Option<f64>,
-    /// Its standard error; null where it has none (an angle of exactly 0).
+    /// Its standard error; null if it has none (an angle of exactly 0).
     #[serde(default)]
     pub sigma: Option<f64>,
     /// Centre of a circle or sphere; the foot of the points' centroid on lines, planes and axes.
@@ -60,11 +60,11 @@ pub struct MeasuredFeature {
     pub ends: Vec<[f64; 3]>,
     /// Why it has no standard errors though there are statistics: the points determine the form, or one that it is measured from, so
     /// weakly that they mean nothing. Standard error of the radius over the radius, or of the direction in radians, whichever is
-    /// larger; null where standard errors hold.
+    /// larger; null if standard errors hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weak: Option<f64>,
     /// Root mean square of the residuals over the largest extent of the points, where it is so large that they hardly form what was
-    /// fitted to them; null where they do.
+    /// fitted to them; null if they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub misfit: Option<f64>,
     /// Points of the feature that this adjustment has not.

@@ -8,10 +8,10 @@ use crate::statistics::reliability::Reliability;
 /// An observation of another kind than image coordinates, after the adjustment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenObservation {
-    /// What was observed.
+    /// The observation.
     #[serde(flatten)]
     pub what: Given,
-    /// Residual, adjusted minus given, in the observation's own unit; null where what was observed is not adjusted.
+    /// Residual, adjusted minus given, in the observation's own unit; null if what was observed is not adjusted.
     pub residual: Option<f64>,
     /// A priori standard error.
     pub sigma: f64,
@@ -19,16 +19,16 @@ pub struct GivenObservation {
     #[serde(default)]
     pub reliability: Option<Reliability>,
     /// External reliability: how far the detectable bias, undetected, moves the point that it moves most, in the project's
-    /// unit; null where the redundancy number is 0 and without full statistics.
+    /// unit; null if the redundancy number is 0 and without full statistics.
     #[serde(default)]
     pub effect: Option<f64>,
     /// That point: the control point itself, an end of the distance, a point of the photo, a point the camera sees.
     #[serde(default)]
     pub effect_point: Option<String>,
-    /// Factor on the weight from robust weighting; null where it is 1.
+    /// Factor on the weight from robust weighting; null if it is 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
-    /// Whether it took part; false where data snooping took it out.
+    /// Whether it took part; false if data snooping took it out.
     #[serde(default = "yes")]
     pub enabled: bool,
 }
@@ -73,7 +73,7 @@ pub enum Given {
     },
 }
 
-/// What search for gross errors did with an observation.
+/// Action of the gross error search on an observation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GrossErrorAction {
@@ -94,10 +94,10 @@ pub struct GrossError {
     pub photo: String,
     /// Point identifier; empty for observations without one.
     pub point: String,
-    /// What was observed, for observations of other kinds than image coordinates.
+    /// The observation, if it is not an image observation.
     #[serde(default)]
     pub given: Option<Given>,
-    /// What was done.
+    /// Action.
     pub action: GrossErrorAction,
     /// Test statistic that led to it (Pope's τ, as normalised residual over sigma0), or the robust weight.
     pub statistic: f64,

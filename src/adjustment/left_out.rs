@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Given;
 
-/// What an item is.
+/// Kind of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeftOutKind {
@@ -14,7 +14,7 @@ pub enum LeftOutKind {
     Control,
     /// A distance.
     Distance,
-    /// An object point of which no observation took part.
+    /// An object point without a used observation.
     Point,
     /// A photo.
     Photo,
@@ -24,7 +24,7 @@ pub enum LeftOutKind {
     Parameter,
 }
 
-/// What took an item out.
+/// The step that excluded an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeftOutBy {
@@ -36,13 +36,13 @@ pub enum LeftOutBy {
     Snooping,
     /// Robust weights.
     Robust,
-    /// The document: somebody disabled it.
+    /// The document: the user disabled it.
     Document,
-    /// The adjustment itself: what it depends on did not take part.
+    /// The adjustment itself: the item depends on another one that was not used.
     Adjustment,
 }
 
-/// Why an item took no part.
+/// Why an item was not used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LeftOutReason {
@@ -52,7 +52,7 @@ pub enum LeftOutReason {
     PhotoNotOriented,
     /// Its point has no coordinates.
     PointNotDetermined,
-    /// As many observations of its point speak for another place as for this one: which are right cannot be decided.
+    /// Equally many observations support two different positions of its point, so the correct ones cannot be identified.
     Undecided,
     /// Its test statistic exceeded the limit of data snooping.
     GrossError,
@@ -64,36 +64,37 @@ pub enum LeftOutReason {
     Disabled,
     /// Its photo is disabled in the document.
     PhotoDisabled,
-    /// It is not measured in a photo that took part.
+    /// It is not measured in any photo that was used.
     NotMeasured,
 }
 
-/// An item of the input that took no part.
+/// An item of the input that was not used.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeftOutItem {
-    /// What it is.
+    /// Kind of the item.
     pub kind: LeftOutKind,
-    /// Photo identifier, of what belongs to a photo.
+    /// Photo identifier, for items that belong to a photo.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub photo: Option<String>,
-    /// Point identifier, of what belongs to a point.
+    /// Point identifier, for items that belong to a point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<String>,
-    /// Observations of other kinds than image coordinates by their full name: ends of a distance, axis of a coordinate.
+    /// Full name of an observation other than an image observation: end points of a distance, axis of a coordinate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub given: Option<Given>,
-    /// What took it out.
+    /// The step that excluded it.
     pub by: LeftOutBy,
     /// Why.
     pub reason: LeftOutReason,
-    /// Image observations: distance from where the adjusted values place it, pixels; null where they do not.
+    /// Image observations: distance of the measured image point from the point projected with the adjusted values, pixels; null if that
+    /// projection does not exist.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_px: Option<f64>,
-    /// Others: adjusted minus given, in the unit of what was given; of a control point the distance of its given coordinates
-    /// from where the photos that took part see it.
+    /// Other items: adjusted minus given, in the unit of the given value; for a control point the distance of its given coordinates from
+    /// those intersected from the photos that were used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
-    /// The same in standard errors of the difference, from the full covariance; null without statistics.
+    /// `size_px` or `size` in standard errors of that difference, from the full covariance matrix; null without statistics.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_sigma: Option<f64>,
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::project::Parameter;
 
-/// What the residuals of a camera depend on.
+/// Variable on which the residuals of a camera depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PatternKind {
@@ -38,7 +38,7 @@ pub enum PatternKind {
 pub struct ResidualPattern {
     /// Camera identifier.
     pub camera: String,
-    /// What the residuals were tested against.
+    /// Alternative against which the residuals were tested.
     pub kind: PatternKind,
     /// Kind `photo`: the photos with an interior orientation of their own; empty: all of them. Other kinds: empty. Where all photos were
     /// tested together, the test is theirs, and these are the ones that differ far more than the others.
@@ -63,7 +63,7 @@ pub struct ResidualPattern {
     pub named: bool,
 }
 
-/// What to do about a pattern.
+/// Remedy for a pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Remedy {

@@ -24,9 +24,9 @@ pub enum Exchange {
 /// Given coordinates are a mirror image of what the photos show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MirroredControl {
-    /// What undoes it.
+    /// The exchange that corrects it.
     pub exchange: Exchange,
-    /// What undoes it as well: the photos and the size of the coordinates do not tell these apart. Each gives the same form and the same
+    /// What undoes it as well: the photos and the size of the coordinates cannot distinguish these. Each gives the same form and the same
     /// residuals.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<Exchange>,
@@ -38,7 +38,7 @@ pub struct MirroredControl {
     pub points: usize,
 }
 
-/// Given points lie in a plane, within their standard errors, and nothing else tells whether their axes are mirrored: both cases have the
+/// Given points lie in a plane, within their standard errors, and nothing else shows whether their axes are mirrored: both cases have the
 /// same residuals, with the cameras on one side of the plane or on the other.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UndecidedAxes {
@@ -48,7 +48,7 @@ pub struct UndecidedAxes {
     pub normal: [f64; 3],
 }
 
-/// What seems to be in another unit than the rest.
+/// Values that seem to be in another unit than the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum UnitOf {
@@ -87,7 +87,7 @@ pub struct OneStation {
     pub all: bool,
 }
 
-/// Why a camera is not believed.
+/// Why a camera is implausible.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 pub enum CameraDoubt {
@@ -137,7 +137,7 @@ pub enum CameraDoubt {
 pub struct ImplausibleCamera {
     /// Camera identifier.
     pub camera: String,
-    /// What is wrong with it.
+    /// The doubt.
     #[serde(flatten)]
     pub doubt: CameraDoubt,
 }

@@ -27,7 +27,7 @@ pub struct RelativePose {
     pub base: f64,
     /// Its standard error; null without statistics.
     pub sigma_base: Option<f64>,
-    /// What each exposure is off.
+    /// Deviation of each exposure.
     pub exposures: Vec<RelativeDeviation>,
     /// Root mean square of the positions' deviations, per axis with n - 1 exposures; null with one exposure.
     pub scatter_position: Option<f64>,
@@ -47,4 +47,19 @@ pub struct RelativeDeviation {
     pub position: [f64; 3],
     /// Turn about the own camera's axes, radians.
     pub rotation: [f64; 3],
+    /// Sum of the redundancy numbers of its six observations; null without statistics, with one exposure, and under robust weights.
+    #[serde(default)]
+    pub redundancy: Option<f64>,
+    /// Degrees of freedom of the numerator of the statistic: 6, or fewer where a part of it is not checked.
+    #[serde(default)]
+    pub degrees: Option<usize>,
+    /// F statistic: what a relative pose of its own would take from vᵀPv, over the variance factor of all other observations.
+    #[serde(default)]
+    pub statistic: Option<f64>,
+    /// How often chance makes it as large.
+    #[serde(default)]
+    pub p_value: Option<f64>,
+    /// Whether it is the most significant one of the rig, beyond α = 0.001: the mount gave, or the photos were not taken together.
+    #[serde(default)]
+    pub outlier: bool,
 }

@@ -22,7 +22,7 @@ use crate::camera::{Model, measurement_from_pixel};
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Camera, CameraModel, Interior, Parameter, Project};
 
-/// Pixels along each side of the picture; a model has at most 12 parameters that stand by themselves.
+/// Pixels along each side of the picture; a model has at most 12 parameters that are independent.
 const FITTED: u32 = 25;
 /// The same where the difference is stated: others, so that it is not only seen where it was made small.
 const STATED: u32 = 62;
@@ -31,7 +31,7 @@ const FARTHEST: f64 = 0.258_819_045_102_520_74;
 /// Iterations; from no distortion a strong one takes about twenty.
 const ITERATIONS: usize = 100;
 
-/// What a conversion has left.
+/// Remaining difference of a conversion.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelConversion {
     /// Camera identifier.
@@ -40,7 +40,7 @@ pub struct ModelConversion {
     pub from: String,
     /// Name of the model that is.
     pub to: String,
-    /// Largest difference of the pixels of one direction, pixels; null where the principal distance is not known, so that there are no
+    /// Largest difference of the pixels of one direction, pixels; null if the principal distance is not known, so that there are no
     /// directions.
     pub max_px: Option<f64>,
     /// Root mean square difference.
@@ -51,10 +51,10 @@ pub struct ModelConversion {
     pub dropped: Vec<Parameter>,
 }
 
-/// The project with a camera in another model, the interior orientations of its photos and its colours included.
+/// The project with a camera in another model, the interior orientations of its photos included.
 ///
 /// # Errors
-/// [`Error::Unknown`] for a camera or a model that is not there; [`Error::Invalid`] where no values of the other model image the rays.
+/// [`Error::Unknown`] for a camera or a model that is not there; [`Error::Invalid`] if no values of the other model image the rays.
 pub fn convert_camera(project: &Project, camera: &str, model: &str) -> Result<(Project, ModelConversion)> {
     let unknown = |kind, name: &str, field| Error::Unknown { kind, name: name.to_owned(), at: Place::field(field) };
     let to =
@@ -105,14 +105,6 @@ fn converted(camera: &Camera, to: &CameraModel) -> Result<(Camera, ModelConversi
     }
     changed.free = estimated(&camera.estimated(), from, to);
     changed.free.retain(|p| !changed.sigma.contains_key(p));
-    for set in changed.colours.values_mut() {
-        let other = Camera { interior: camera.interior.plus(&set.parameters), ..camera.clone() };
-        let (fitted, left) = interior_of(&other, to)?;
-        conversion.worse(&left);
-        let known = |p: &Parameter| Some((*p, fitted.get(*p)? - interior.get(*p)?));
-        set.parameters = alone(to).iter().filter_map(known).collect();
-        set.sigma.clear();
-    }
     Ok((changed, conversion))
 }
 
@@ -132,7 +124,7 @@ impl ModelConversion {
     }
 }
 
-/// Parameters that stand by themselves.
+/// Parameters that are independent.
 fn alone(model: &CameraModel) -> Vec<Parameter> {
     model.parameters.iter().copied().filter(|p| *p != Parameter::F).collect()
 }
@@ -163,7 +155,7 @@ fn estimated(own: &[Parameter], from: &CameraModel, to: &CameraModel) -> Vec<Par
         P::Fx | P::Fy => is_uneven && has(&[P::C, P::F, P::Fx, P::Fy]),
         P::X0 | P::Cx => has(&[P::X0, P::Cx]),
         P::Y0 | P::Cy => has(&[P::Y0, P::Cy]),
-        // two more only stand in for the others
+        // two more are nearly equivalent to the others
         P::K5 | P::K6 => false,
         P::K1 | P::K2 | P::K3 | P::K4 if is_polynomial(from) && is_polynomial(to) => own.contains(p),
         P::K1 | P::K2 | P::K3 | P::K4 => is_radial,
@@ -244,7 +236,7 @@ fn interior_of(camera: &Camera, to: &CameraModel) -> Result<(Interior, Left)> {
         at: Place::camera(&camera.id),
     };
     let moved: Vec<Parameter> = alone(to).into_iter().filter(|p| !matches!(p, Parameter::K5 | Parameter::K6)).collect();
-    let fit = Fit { camera, moved, rays: rays(camera, &model, to, FITTED).0 };
+    let fit = ConversionProblem { camera, moved, rays: rays(camera, &model, to, FITTED).0 };
     if 2 * fit.rays.len() <= fit.moved.len() {
         return Err(fails());
     }
@@ -252,7 +244,7 @@ fn interior_of(camera: &Camera, to: &CameraModel) -> Result<(Interior, Left)> {
     let (stated, of) = rays(camera, &model, to, STATED);
     let fitted = Model::new(&interior).ok_or_else(fails)?;
     let other = Camera { interior, ..camera.clone() };
-    let apart = |(pixel, ray): &Sight| {
+    let apart = |(pixel, ray): &PixelRay| {
         let image = fitted.pixel(&other, *ray)?;
         Some((image[0] - pixel[0]).hypot(image[1] - pixel[1]))
     };
@@ -270,10 +262,10 @@ fn interior_of(camera: &Camera, to: &CameraModel) -> Result<(Interior, Left)> {
 }
 
 /// A pixel and its ray in the camera frame.
-type Sight = ([f64; 2], [f64; 3]);
+type PixelRay = ([f64; 2], [f64; 3]);
 
 /// Pixels from border to border with their rays in the camera frame, as far as the other model can have images of them, and how many have rays.
-fn rays(camera: &Camera, model: &Model, to: &CameraModel, across: u32) -> (Vec<Sight>, usize) {
+fn rays(camera: &Camera, model: &Model, to: &CameraModel, across: u32) -> (Vec<PixelRay>, usize) {
     let step = |k: u32, size: u32| f64::from(size) * f64::from(k) / f64::from(across - 1);
     let mut all = Vec::new();
     let mut count = 0;
@@ -290,14 +282,14 @@ fn rays(camera: &Camera, model: &Model, to: &CameraModel, across: u32) -> (Vec<S
 }
 
 /// The least squares problem.
-struct Fit<'a> {
+struct ConversionProblem<'a> {
     camera: &'a Camera,
     moved: Vec<Parameter>,
-    rays: Vec<Sight>,
+    rays: Vec<PixelRay>,
 }
 
-impl Fit<'_> {
-    /// Differences in pixels, two rows for each ray, and their derivatives; none where the model does not project a ray.
+impl ConversionProblem<'_> {
+    /// Differences in pixels, two rows for each ray, and their derivatives; `None` if the model does not project a ray.
     fn linear(&self, interior: &Interior) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let model = Model::new(interior)?;
         let camera = Camera { interior: *interior, ..self.camera.clone() };
@@ -442,14 +434,9 @@ mod tests {
     }
 
     #[test]
-    fn photos_and_colours_come_with_it_and_an_unknown_distance_stays_unknown() {
+    fn photos_come_with_it_and_an_unknown_distance_stays_unknown() {
         let mut given = project(camera(opencv([-0.2, 0.05, 0.0], [0.0; 2])));
         given.cameras[0].per_photo = true;
-        let colour = crate::project::ColourDifferences {
-            parameters: [(Parameter::F, 0.5), (Parameter::K1, 1e-4)].into(),
-            ..Default::default()
-        };
-        given.cameras[0].colours.insert(crate::project::LensColour::Red, colour);
         given.photos = vec![crate::project::Photo {
             id: "1".into(),
             camera: "k".into(),
@@ -462,11 +449,8 @@ mod tests {
         changed.validate().unwrap();
         assert!(left.max_px.unwrap() < 1e-6);
         assert_eq!(changed.photos[0].interior.unwrap().model(), &CameraModel::OPENCV_RATIONAL);
-        let red = &changed.cameras[0].colours[&crate::project::LensColour::Red].parameters;
-        assert!((red[&Parameter::Fx] - 0.5).abs() < 1e-5, "{red:?}");
         let mut unknown = given.clone();
         unknown.photos.clear();
-        unknown.cameras[0].colours.clear();
         unknown.cameras[0].interior.forget_principal_distance();
         let (changed, left) = convert_camera(&unknown, "k", "brown").unwrap();
         assert_eq!((changed.cameras[0].principal_distance_px(), left.max_px), (None, None));

@@ -19,16 +19,16 @@ const CELLS: [usize; 2] = [8, 6];
 const RINGS: usize = 5;
 /// Upper ends of the classes of tilts, degrees.
 const TILTS: [f64; 3] = [15.0, 30.0, 45.0];
-/// Fewest photos: with eight, as many poses as unknowns of a lens are told apart.
+/// Minimum number of photos: with eight, the poses can be separated from the unknowns of a lens.
 const PHOTOS: usize = 8;
 /// A radius up to which targets have to be measured, in parts of that of the corner; the rest is extrapolated.
 const REACH: f64 = 0.85;
-/// Cells without a target, as a part of all, from which on that is told.
+/// Cells without a target, as a part of all, above which that is reported.
 const EMPTY: f64 = 0.15;
-/// Tilt of some photos without which the principal distance of a plane object is not told from its distance, degrees.
+/// Tilt of some photos without which the principal distance of a plane object cannot be separated from its distance, degrees.
 const TILTED: f64 = 20.0;
 
-/// What is missing.
+/// Deficiency of the coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -45,7 +45,7 @@ pub enum CoverageLack {
     Tilt,
 }
 
-/// What the photos of a camera cover.
+/// Coverage of the image by the targets of a camera's photos.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Coverage {
@@ -69,11 +69,11 @@ pub struct Coverage {
     pub tilts: [usize; 4],
     /// Smallest and largest distance from the points' centroid, in the project's unit; null without orientation.
     pub distances: Option<[f64; 2]>,
-    /// What is missing.
+    /// Deficiencies of the coverage.
     pub lacks: Vec<CoverageLack>,
 }
 
-/// What the photos of a camera cover. Orientations and points are those of the document.
+/// Coverage of the image by the targets of a camera's photos. Orientations and points are those of the document.
 ///
 /// # Errors
 /// As [`super::compare_models`] for the camera; whatever [`Project::validate`] finds.
@@ -102,7 +102,7 @@ pub fn coverage(project: &Project, camera: Option<&str>) -> Result<Coverage> {
     }
     found.photos = count.values().filter(|n| **n > 0).count();
     let places: Vec<Vector3<f64>> = project.points.iter().filter_map(|p| p.xyz).map(Vector3::from).collect();
-    let plane = Plane::of(&places);
+    let plane = BestFitPlane::of(&places);
     let taken = project.photos.iter().filter(|p| count.get(p.id.as_str()).is_some_and(|n| *n > 0));
     let mut first = None;
     let mut most_tilted = 0.0_f64;
@@ -141,7 +141,7 @@ fn lacks(found: &Coverage, most_tilted: f64, is_flat: bool) -> Vec<CoverageLack>
 }
 
 /// The plane that the points lie nearest to.
-struct Plane {
+struct BestFitPlane {
     centre: Vector3<f64>,
     normal: Vector3<f64>,
     /// The points' longest extent.
@@ -150,7 +150,7 @@ struct Plane {
     is_flat: bool,
 }
 
-impl Plane {
+impl BestFitPlane {
     fn of(places: &[Vector3<f64>]) -> Option<Self> {
         if places.len() < 3 {
             return None;
@@ -163,67 +163,5 @@ impl Plane {
         let axis = |k: usize| eigen.eigenvectors.column(order[k]).into_owned();
         let is_flat = eigen.eigenvalues[order[0]] < 0.01 * eigen.eigenvalues[order[2]];
         Some(Self { centre, normal: axis(0), along: axis(2), is_flat })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::network::{Network, NetworkPoint, Station, simulate};
-    use crate::project::{Camera, Interior};
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
-
-    /// A flat board of 30 points of `half` a width, seen from stations at a tilt and a roll in degrees.
-    fn board(half: f64, stations: &[(f64, f64)]) -> Project {
-        let point = |k: u32| NetworkPoint {
-            id: k.to_string(),
-            xyz: [half * (f64::from(k % 6) / 2.5 - 1.0), half * 0.7 * (f64::from(k / 6) / 2.0 - 1.0), 0.0],
-            ..NetworkPoint::default()
-        };
-        let station = |(k, (tilt, roll)): (usize, &(f64, f64))| {
-            let tilt = tilt.to_radians();
-            let position = [600.0 * tilt.sin(), 0.0, 600.0 * tilt.cos()];
-            Station::aimed(format!("s{k}"), "c", position, [0.0; 3], roll.to_radians())
-        };
-        simulate(&Network {
-            cameras: vec![Camera::new("c", 1600, 1200, Interior::brown(1500.0))],
-            stations: stations.iter().enumerate().map(station).collect(),
-            points: (0..30).map(point).collect(),
-            ..Network::default()
-        })
-        .expect("a network")
-    }
-
-    #[test]
-    fn good_coverage_lacks_nothing_and_each_lack_is_told() {
-        let turns = [0.0, 90.0, 180.0, 270.0];
-        let good: Vec<(f64, f64)> = turns.iter().flat_map(|roll| [(2.0, *roll), (35.0, *roll)]).collect();
-        let found = coverage(&board(300.0, &good), None).expect("one camera");
-        assert_eq!((found.photos, found.oriented, found.rolls, found.tilts), (8, 8, [2; 4], [4, 0, 4, 0]));
-        assert_eq!(found.lacks, [], "{found:?}");
-        assert_eq!(found.rings.iter().sum::<usize>(), found.measurements);
-        assert_eq!(found.cells.iter().flatten().sum::<usize>(), found.measurements);
-        let [near, far] = found.distances.expect("oriented");
-        assert!((near - 600.0).abs() < 1.0 && (far - 600.0).abs() < 1.0);
-        let lacks = |stations: &[(f64, f64)]| coverage(&board(300.0, stations), None).expect("one camera").lacks;
-        let has = |all: &[CoverageLack], roll, tilt| {
-            (all.contains(&CoverageLack::Roll), all.contains(&CoverageLack::Tilt)) == (roll, tilt)
-        };
-        let upright: Vec<(f64, f64)> = good.iter().map(|(tilt, _)| (*tilt, 90.0)).collect();
-        assert!(has(&lacks(&upright), true, false), "{:?}", lacks(&upright));
-        let frontal: Vec<(f64, f64)> = good.iter().map(|(_, roll)| (3.0, *roll)).collect();
-        assert!(has(&lacks(&frontal), false, true), "{:?}", lacks(&frontal));
-        let few = coverage(&board(60.0, &good[..3]), None).expect("one").lacks;
-        assert_eq!(few, [CoverageLack::Photos, CoverageLack::Radius, CoverageLack::Cells]);
-    }
-
-    #[test]
-    fn nothing_measured_lacks_photos() {
-        let mut bare = board(300.0, &[(0.0, 0.0)]);
-        bare.observations = Default::default();
-        let found = coverage(&bare, Some("c")).expect("one");
-        assert_eq!((found.photos, found.reach, found.lacks), (0, 0.0, vec![CoverageLack::Photos]));
-        assert!(coverage(&bare, Some("x")).is_err());
     }
 }

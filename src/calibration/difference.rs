@@ -18,7 +18,7 @@ const ITERATIONS: usize = 30;
 /// A step, radians, that moves no image by a billionth of a pixel; rounding alone makes steps a hundred times shorter.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// What is asked.
+/// Options of the comparison of two cameras.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct DifferenceOptions {
@@ -45,13 +45,13 @@ pub struct CameraDifference {
     pub u: Vec<f64>,
     /// Rows of the grid, pixels.
     pub v: Vec<f64>,
-    /// Per row and column: difference in u, pixels; null where either camera has no image.
+    /// Per row and column: difference in u, pixels; null if either camera has no image.
     pub du: Vec<Vec<Option<f64>>>,
     /// Per row and column: difference in v.
     pub dv: Vec<Vec<Option<f64>>>,
     /// Rotation from the first camera frame to the second as a vector along its axis, radians.
     pub rotation: [f64; 3],
-    /// Translation t in the unit of the distance; null where none was fitted.
+    /// Translation t in the unit of the distance; null if none was fitted.
     pub translation: Option<[f64; 3]>,
     /// Distance that it holds for; null: directions.
     pub distance: Option<f64>,
@@ -67,7 +67,7 @@ pub struct CameraDifference {
 /// [`Error::Invalid`] for images of different sizes, a principal distance that is not known, a grid, a distance or a region that is none, or
 /// a motion that does not bring the cameras together.
 pub fn compare_cameras(a: &Camera, b: &Camera, options: &DifferenceOptions) -> Result<CameraDifference> {
-    let fitted = Fitted::new(a, b, options)?;
+    let fitted = AlignedCameras::new(a, b, options)?;
     let [u, v] = places::axes(a, options.grid)?;
     let difference: Vec<Vec<Option<[f64; 2]>>> =
         v.iter().map(|v| u.iter().map(|u| fitted.at([*u, *v])).collect()).collect();
@@ -87,8 +87,8 @@ pub fn compare_cameras(a: &Camera, b: &Camera, options: &DifferenceOptions) -> R
     })
 }
 
-/// Two cameras brought together.
-pub struct Fitted<'a> {
+/// Two cameras aligned to each other.
+pub struct AlignedCameras<'a> {
     a: &'a Camera,
     b: &'a Camera,
     models: [Model; 2],
@@ -98,7 +98,7 @@ pub struct Fitted<'a> {
     translation: Vector3<f64>,
 }
 
-impl<'a> Fitted<'a> {
+impl<'a> AlignedCameras<'a> {
     /// # Errors
     /// As [`compare_cameras`].
     pub fn new(a: &'a Camera, b: &'a Camera, options: &DifferenceOptions) -> Result<Self> {
@@ -171,7 +171,7 @@ impl<'a> Fitted<'a> {
         Some((point, self.models[1].pixel(self.b, point.into())?))
     }
 
-    /// Difference at a pixel; none where either camera has no image.
+    /// Difference at a pixel; `None` if either camera has no image.
     pub fn at(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
         let (_, image) = self.image(pixel)?;
         Some([image[0] - pixel[0], image[1] - pixel[1]])

@@ -8,8 +8,8 @@
 //! BIC = n ln(Ω / n) + k ln n
 //! ```
 //!
-//! (G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978), up to a number that all models share. It asks no variance
-//! factor. Beside it stands the rms of image points that were held out: a part of those of points seen in other photos too takes no part, and is
+//! (G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978), up to a number that all models share. It needs no variance
+//! factor. Beside it stands the rms of image points that were held out: a part of those of points seen in other photos too is not used, and is
 //! predicted by the rest. Only points that every model adjusted are counted.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -32,7 +32,7 @@ const POINTS: usize = 6;
 /// n ln(Ω / Ω_best) beyond which a model fits worse: odds of 150 to 1 (Kass and Raftery, Bayes factors, JASA 90, 1995: "very strong").
 const WORSE: f64 = 10.0;
 
-/// What is asked.
+/// Options of the comparison of camera models.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ModelsOptions {
@@ -50,7 +50,7 @@ impl Default for ModelsOptions {
     }
 }
 
-/// What the comparison says of a model.
+/// Verdict of the comparison on a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ModelVerdict {
@@ -64,7 +64,7 @@ pub enum ModelVerdict {
     TooStiff,
     /// It fits no better than the best, with more parameters.
     Overfits,
-    /// It cannot be adjusted; `failure` says why.
+    /// It cannot be adjusted; `failure` has the reason.
     Failed,
 }
 
@@ -73,21 +73,21 @@ pub enum ModelVerdict {
 pub struct ComparedModel {
     /// Name of the model.
     pub model: String,
-    /// What its start values left of the present camera; null where it could not be converted.
+    /// What its start values left of the present camera; null if it could not be converted.
     pub conversion: Option<ModelConversion>,
-    /// The camera with its adjusted values; null where it failed.
+    /// The camera with its adjusted values; null if it failed.
     pub camera: Option<Camera>,
     /// Standard deviation of unit weight.
     pub sigma0: Option<f64>,
     /// Estimated parameters of the camera.
     pub parameters: Vec<Parameter>,
-    /// Those of distortion that are not told from 0.
+    /// Those of distortion that are not significantly different from 0.
     pub insignificant: Vec<Parameter>,
-    /// Root mean square of the coordinates of held out image points minus their predictions, pixels; null where none could be held out.
+    /// Root mean square of the coordinates of held out image points minus their predictions, pixels; null if none could be held out.
     pub held_out_rms: Option<f64>,
     /// Schwarz's criterion, less that of the best; 0 for the best.
     pub bic: Option<f64>,
-    /// What it says.
+    /// Verdict of the comparison.
     pub verdict: ModelVerdict,
     /// Why it failed.
     pub failure: Option<Error>,
@@ -104,10 +104,10 @@ struct Adjusted {
     estimated: Vec<Parameter>,
 }
 
-/// The coefficients of the rational model that stand in for its others: compared with them and without.
+/// The coefficients of the rational model that are nearly equivalent to its others: compared with them and without.
 const STAND_INS: [Parameter; 2] = [Parameter::K5, Parameter::K6];
 
-/// The models that are compared: all, those with coefficients that stand in for others without and with these.
+/// The models that are compared: all, those with coefficients that are nearly equivalent to others: without and with these.
 fn variants() -> Vec<(&'static CameraModel, bool)> {
     let has = |model: &CameraModel| STAND_INS.iter().all(|p| model.parameters.contains(p));
     CameraModel::ALL.iter().flat_map(|m| [Some((m, false)), has(m).then_some((m, true))]).flatten().collect()
@@ -313,7 +313,7 @@ fn predicted<'a>(held_out: &HashSet<usize>, all: impl Iterator<Item = &'a Adjust
     sums.iter().map(|(variant, squares)| (*variant, rms(squares))).collect()
 }
 
-/// Parameters of distortion whose size is below so many standard errors that they are not told from 0, in every photo where each has its own.
+/// Parameters of distortion whose size is below so many standard errors that they are not significantly different from 0, in every photo where each has its own.
 fn insignificant(adjustment: &Adjustment, id: &str) -> Vec<Parameter> {
     let own: Vec<_> = adjustment.cameras.iter().filter(|c| c.camera.id == id).collect();
     let Some(first) = own.first() else { return Vec::new() };

@@ -45,7 +45,7 @@ fn normal_matrix(places: &[ImagePlace], components: usize) -> (DMatrix<f64>, DVe
 /// The motion of least squares against given image shifts: minimises Σ |e + Km|².
 ///
 /// # Errors
-/// [`Error::Invalid`] where the region has too few places to tell.
+/// [`Error::Invalid`] if the region has too few places to tell.
 pub fn against(places: &[ImagePlace], components: usize, shifts: &[DMatrix<f64>]) -> Result<DMatrix<f64>> {
     let columns = shifts.first().map_or(0, |e| e.ncols());
     let mut found = DMatrix::zeros(6, columns);

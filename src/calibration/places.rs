@@ -8,7 +8,7 @@ use crate::camera::{Model, measurement_from_pixel};
 use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Camera, Parameter};
 
-/// Most places along a side of a grid: a million 2 x 2 matrices are a map, more is a mistake.
+/// Maximum number of places along a side of a grid: a million 2 x 2 matrices are a map, more is a mistake.
 const LARGEST_GRID: usize = 1000;
 /// Places along a side of the region that a motion is fitted over: a few hundred in all, of functions as smooth as a lens.
 const ACROSS: u32 = 21;
@@ -25,7 +25,7 @@ pub struct ImagePlace {
     pub by_motion: DMatrix<f64>,
 }
 
-/// The place of a pixel; none where the model gives it no ray.
+/// The place of a pixel; `None` if the model gives it no ray.
 pub fn place(camera: &Camera, parameters: &[Parameter], pixel: [f64; 2], distance: Option<f64>) -> Option<ImagePlace> {
     let model = Model::new(&camera.interior)?;
     let ray = Vector3::from(model.ray(camera, pixel)?).normalize();

@@ -1,4 +1,4 @@
-//! Which camera models a field of view asks for, before anything was measured.
+//! Camera models suitable for a field of view, before anything was measured.
 //!
 //! The polynomial of Brown's model runs away at the edge of wide lenses: with barrel distortion residuals are beyond the noise from some 70
 //! degrees across the diagonal. Lenses whose focal length would give more than 105 degrees through a straight projection are fisheyes
@@ -17,7 +17,7 @@ pub fn diagonal_field(camera: &Camera, principal_distance_px: f64) -> Option<f64
     is_sound.then(|| 2.0 * half.atan2(principal_distance_px).to_degrees())
 }
 
-/// Names of the models that such a lens is likely to need, the likeliest first; empty where the camera's own model serves, or is one of them.
+/// Names of the models that such a lens is likely to need, the likeliest first; empty if the camera's own model serves, or is one of them.
 pub fn proposed_models(camera: &Camera, principal_distance_px: f64) -> Vec<&'static str> {
     let Some(field) = diagonal_field(camera, principal_distance_px) else { return Vec::new() };
     let all = match field {

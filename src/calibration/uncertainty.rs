@@ -20,7 +20,7 @@ use crate::adjustment::{AdjustedCamera, Adjustment};
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Parameter, Project};
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UncertaintyOptions {
@@ -82,7 +82,7 @@ pub struct ProjectionUncertainty {
     pub u: Vec<f64>,
     /// Rows of the grid, pixels.
     pub v: Vec<f64>,
-    /// Per row and column: standard error in the worst direction, pixels; null where the model gives no ray.
+    /// Per row and column: standard error in the worst direction, pixels; null if the model gives no ray.
     pub sigma: Vec<Vec<Option<f64>>>,
     /// Per row and column: variances and covariance uu, uv, vv, square pixels.
     pub covariance: Vec<Vec<Option<[f64; 3]>>>,
@@ -106,7 +106,7 @@ pub fn projection_uncertainty(
     options: &UncertaintyOptions,
 ) -> Result<ProjectionUncertainty> {
     let adjusted = chosen(adjustment, options.camera.as_deref(), options.photo.as_deref())?;
-    let spread = Spread::of(project, adjustment, adjusted, options)?;
+    let spread = ProjectionCovariance::of(project, adjustment, adjusted, options)?;
     let camera = &adjusted.camera;
     let [u, v] = places::axes(camera, options.grid)?;
     let at = |u: f64, v: f64| {
@@ -171,14 +171,14 @@ pub fn chosen<'a>(adjustment: &'a Adjustment, camera: Option<&str>, photo: Optio
     Ok(first)
 }
 
-/// Covariance of parameters and motion, (parameters, turn, shift), of which a place takes its own.
-pub struct Spread {
+/// Covariance of camera parameters and motion (parameters, turn, shift).
+pub struct ProjectionCovariance {
     /// Estimated parameters.
     pub parameters: Vec<Parameter>,
     covariance: DMatrix<f64>,
 }
 
-impl Spread {
+impl ProjectionCovariance {
     /// # Errors
     /// As [`projection_uncertainty`].
     pub fn of(
@@ -222,7 +222,7 @@ impl Spread {
         Ok(Self { parameters, covariance: &all * own * all.transpose() })
     }
 
-    /// Covariance of the pixel at a place that was taken by [`Self::parameters`]; none where it is beyond all measure.
+    /// Covariance of the pixel at a place that was taken by [`Self::parameters`]; `None` if it is beyond all measure.
     pub fn at(&self, place: &ImagePlace) -> Option<Matrix2<f64>> {
         let j = self.derivatives(place);
         let c = &j * &self.covariance * j.transpose();

@@ -9,7 +9,7 @@
 //!
 //! Σ is that of the a priori standard errors: sigma0 takes what a wrong model leaves for noise and would hide what is looked for. Where the a
 //! priori standard errors themselves are too small the ratios are large as well; then the difference keeps to the prediction with sigma0 and
-//! the residuals of no part have a pattern, which is told apart ([`CrossVerdict::LargerNoise`]).
+//! the residuals of no part have a pattern, which is reported separately ([`CrossVerdict::LargerNoise`]).
 //!
 //! The right model exceeds twice the prediction at one place of seven by chance, and somewhere in most images. The limit is therefore the ratio that
 //! the largest over all covered places exceeds once in a thousand when the model is right, found by draws from the covariances, and never
@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, Matrix2};
 use serde::{Deserialize, Serialize};
 
 use super::places::{self, ImagePlace};
-use super::uncertainty::{self, Spread, UncertaintyOptions};
+use super::uncertainty::{self, ProjectionCovariance, UncertaintyOptions};
 use super::{CameraDifference, DifferenceOptions, FitRegion, GRID, MotionReference, WorstPlace, difference, split};
 use crate::adjust;
 use crate::adjustment::{AdjustOptions, Adjustment, PatternKind, StatisticsChoice, Termination};
@@ -33,7 +33,7 @@ use crate::error::{Error, Place, Reason, Result};
 use crate::noise::Noise;
 use crate::project::{DatumKind, Photo, Point, Project, Role};
 
-/// Most parts: more of them are parts of few photos, and the number of pairs grows with its square.
+/// Maximum number of parts: more of them are parts of few photos, and the number of pairs grows with its square.
 pub const MOST_PARTS: usize = 8;
 /// Photos of a part without which position and roll cannot be balanced.
 const PHOTOS: usize = 2;
@@ -48,7 +48,7 @@ const SEED: u64 = 53;
 /// A pattern of a smaller p-value is none of chance: with seven kinds tested in each of two parts, one clean calibration in seventy has one.
 const PATTERN: f64 = 1e-3;
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CrossOptions {
@@ -89,13 +89,13 @@ pub struct CrossPart {
     pub photos: Vec<String>,
     /// Standard deviation of unit weight.
     pub sigma0: Option<f64>,
-    /// What the residuals of the camera significantly depend on.
+    /// Variables on which the residuals of the camera depend significantly.
     pub patterns: Vec<PatternKind>,
     /// The camera as this part has it.
     pub camera: crate::adjustment::AdjustedCamera,
 }
 
-/// What the comparison says of the model.
+/// Verdict of the comparison on the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CrossVerdict {
@@ -119,7 +119,7 @@ pub struct CrossValidation {
     pub u: Vec<f64>,
     /// Rows of the grid, pixels.
     pub v: Vec<f64>,
-    /// Per row and column: standard error of the difference in its worst direction, by the a priori standard errors, pixels; null where a
+    /// Per row and column: standard error of the difference in its worst direction, by the a priori standard errors, pixels; null if a
     /// part gives no ray. Of several pairs of parts the one with the largest ratio there.
     pub predicted: Vec<Vec<Option<f64>>>,
     /// Per row and column: length of the difference.
@@ -136,7 +136,7 @@ pub struct CrossValidation {
     pub ratio_with_sigma0: Option<f64>,
     /// Ratio that a right model exceeds anywhere once in a thousand, at least 2; 2 where the residuals of every part have a pattern.
     pub limit: f64,
-    /// What it says.
+    /// Verdict of the cross-validation.
     pub verdict: CrossVerdict,
 }
 
@@ -204,7 +204,7 @@ struct Calibrated {
     adjustment: Adjustment,
     own: usize,
     photos: Vec<String>,
-    spread: Spread,
+    spread: ProjectionCovariance,
     /// Variance factor of the standard errors.
     factor: f64,
 }
@@ -236,7 +236,7 @@ impl Calibrated {
             region: options.region,
             reference: options.reference,
         };
-        let spread = Spread::of(&project, &adjustment, adjusted, &asked)?;
+        let spread = ProjectionCovariance::of(&project, &adjustment, adjusted, &asked)?;
         let own = adjustment.cameras.iter().position(|c| std::ptr::eq(c, adjusted)).unwrap_or_default();
         let factor = adjustment.sigma0.filter(|s| *s > 0.0).map_or(1.0, |s| s * s);
         Ok(Self { project, own, photos: photos.to_vec(), spread, factor, adjustment })

@@ -30,7 +30,7 @@ pub struct Brown {
 }
 
 impl Brown {
-    /// The model of an interior orientation; none for another model or while c is unknown.
+    /// The model of an interior orientation; `None` for another model or while c is unknown.
     pub fn new(interior: &Interior) -> Option<Self> {
         match *interior {
             Interior::Brown { c: Some(c), x0, y0, k1, k2, k3, p1, p2, b1, b2 } => {

@@ -30,11 +30,11 @@ pub struct Fisheye {
     pub k4: f64,
 }
 
-/// Places from the axis to 180 degrees at which the distortion is looked at, so that no image is taken from beyond a fold.
+/// Places from the axis to 180 degrees at which the distortion is examined, so that no image is taken from beyond a fold.
 const PLACES: u32 = 64;
 
 impl Fisheye {
-    /// The model of an interior orientation; none for another model or while a focal length is unknown.
+    /// The model of an interior orientation; `None` for another model or while a focal length is unknown.
     pub fn new(interior: &Interior) -> Option<Self> {
         match *interior {
             Interior::OpencvFisheye { fx: Some(fx), fy: Some(fy), cx, cy, k1, k2, k3, k4 } => {
@@ -61,7 +61,7 @@ impl Fisheye {
         between.chain([angle]).all(|at| self.distorted(at).1 > 0.0)
     }
 
-    /// Ray of a pixel in the camera frame, of unit length; none beyond the model's fold or 180 degrees.
+    /// Ray of a pixel in the camera frame, of unit length; `None` beyond the model's fold or 180 degrees.
     pub fn ray(&self, [u, v]: [f64; 2]) -> Option<[f64; 3]> {
         let (a, b) = ((u - self.cx) / self.fx, (v - self.cy) / self.fy);
         let radius = a.hypot(b);

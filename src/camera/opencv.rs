@@ -26,7 +26,7 @@ pub struct Opencv {
 }
 
 impl Opencv {
-    /// The model of an interior orientation; none for another model or while a focal length is unknown.
+    /// The model of an interior orientation; `None` for another model or while a focal length is unknown.
     pub fn new(interior: &Interior) -> Option<Self> {
         match *interior {
             Interior::Opencv { fx: Some(fx), fy: Some(fy), cx, cy, k1, k2, p1, p2, k3 } => {
@@ -55,7 +55,7 @@ impl Opencv {
         (value, derivative)
     }
 
-    /// Direction (x, y) of a pixel, the ray being (x, y, -1); none beyond the model's fold.
+    /// Direction (x, y) of a pixel, the ray being (x, y, -1); `None` beyond the model's fold.
     pub fn ideal(&self, [u, v]: [f64; 2]) -> Option<[f64; 2]> {
         let image = [(u - self.cx) / self.fx, (v - self.cy) / self.fy];
         let ([a, b], _) = invert(image, image, 1.0, |x| self.distorted(x))

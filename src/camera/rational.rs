@@ -32,7 +32,7 @@ pub struct Rational {
     pub k6: f64,
 }
 
-/// Places along the radius at which the distortion is looked at, so that no image is taken from beyond a fold or a pole.
+/// Places along the radius at which the distortion is examined, so that no image is taken from beyond a fold or a pole.
 const PLACES: u32 = 16;
 
 /// Numerator, denominator and their derivatives by r².
@@ -45,7 +45,7 @@ struct Ratio {
 }
 
 impl Rational {
-    /// The model of an interior orientation; none for another model or while a focal length is unknown.
+    /// The model of an interior orientation; `None` for another model or while a focal length is unknown.
     pub fn new(interior: &Interior) -> Option<Self> {
         match *interior {
             Interior::OpencvRational { fx: Some(fx), fy: Some(fy), cx, cy, k1, k2, p1, p2, k3, k4, k5, k6 } => {
@@ -102,7 +102,7 @@ impl Rational {
         (1..=PLACES).all(grows)
     }
 
-    /// Direction (x, y) of a pixel, the ray being (x, y, -1); none beyond the model's fold.
+    /// Direction (x, y) of a pixel, the ray being (x, y, -1); `None` beyond the model's fold.
     pub fn ideal(&self, [u, v]: [f64; 2]) -> Option<[f64; 2]> {
         let image = [(u - self.cx) / self.fx, (v - self.cy) / self.fy];
         let from = |start| {

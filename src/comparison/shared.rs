@@ -8,49 +8,50 @@
 //! gᵢ = sᵢ (f₂ᵢ σ₂ᵢ - sR f₁ᵢ σ₁ᵢ)        C_d = Σᵢ S gᵢ gᵢᵀ Sᵀ = C₁ + C₂ - C₁₂ - C₁₂ᵀ
 //! ```
 //!
-//! The sum has no negative variance. S is the S-transformation onto the points that carried the similarity between both systems, where
-//! there is one (`Datum`): it takes from d what the similarity takes up. sᵢ² is the variance factor of the result that has the
-//! observation, and for observations of both the mean of both factors, weighted by their redundancies. An observation shared with the
-//! same standard error in networks that are equal has gᵢ = 0; where one network is part of the other, C_d is the difference of the two
-//! covariances (J. A. Hausman 1978).
+//! The sum has no negative variance. If a similarity transformation between both systems was estimated, S is the S-transformation to the
+//! points from which it was estimated (`ReferenceDatum`), which removes from d the part that the similarity absorbs. sᵢ² is the variance
+//! factor of the result that contains the observation; for observations of both results, the mean of both factors weighted by their
+//! redundancies. In equal networks a shared observation with the same standard error has gᵢ = 0; if one network is part of the other, C_d
+//! is the difference of the two covariances (J. A. Hausman 1978).
 
 use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::adjust::inside::influence::{Influences, Quantity, influences};
+use crate::adjust::inside::influence::{AdjustedQuantity, Influences, influences};
 use crate::adjust::inside::linear_system::Equation;
 use crate::adjustment::Adjustment;
 use crate::initial::similarity::Similarity;
-use crate::monitoring::covariance::Datum;
+use crate::monitoring::covariance::ReferenceDatum;
 use crate::project::{Photo, Project};
 
-/// Observations times points and photos at most: more take longer than a few seconds in a browser, and memory for a number per unknown
-/// and quantity.
+/// Maximum product of the number of observations and that of points and photos: more take longer than a few seconds in a browser, and too
+/// much memory.
 const LARGEST: usize = 12_000_000;
-/// Given values are the same observation where they differ by less than this part of their standard error: frames of two adjustments
-/// round them differently.
+/// Given values count as the same observation if they differ by less than this share of their standard error: the frames of two
+/// adjustments round them differently.
 const SAME: f64 = 1e-6;
 
-/// What is compared, by names, in the order of the results.
-pub struct Wanted<'a> {
+/// Compared quantities by name, in the order of the results.
+pub struct ComparedQuantities<'a> {
     /// Points.
     pub points: Vec<&'a str>,
     /// Photos.
     pub photos: Vec<&'a str>,
     /// Parameters of interior orientations: camera, photo, parameter.
-    pub parameters: Vec<Quantity>,
+    pub parameters: Vec<AdjustedQuantity>,
 }
 
-/// How the earlier system became the later one.
-pub struct Laid {
+/// Transformation from the earlier system into the later one.
+pub struct SystemTransformation {
     /// The transform.
     pub transform: Similarity,
-    /// Places in [`Wanted::points`] of the points that carried it, and the number of its parameters, 6 or 7; none where it is not estimated.
+    /// Indices in [`ComparedQuantities::points`] of the points from which it was estimated, and the number of its parameters, 6 or 7;
+    /// `None` if it was not estimated.
     pub carriers: Option<(Vec<usize>, usize)>,
 }
 
-/// Covariances of differences, in the order of what was wanted.
+/// Covariances of the differences, in the order of [`ComparedQuantities`].
 pub struct Covariances {
     /// Of points.
     pub points: Vec<Matrix3<f64>>,
@@ -68,25 +69,27 @@ pub fn same_photo(a: &Photo, b: &Photo) -> bool {
     }
 }
 
-/// Covariances of the differences later minus earlier of `wanted`, whose places in the later system are `places`: points, then photos.
-/// None where the equations of one of the documents do not repeat its result, where a photo of both was measured twice, so that nothing
-/// is known of how both measurements are correlated, and where the networks are too large.
+/// Covariances of the differences, later minus earlier, of the quantities `wanted`; `places` are the positions of its points and then its
+/// photos in the later system. `None` if the equations of one of the documents do not reproduce its result, if a photo of both was
+/// measured twice, so that the correlation of both measurements is unknown, and if the networks are too large.
 pub fn covariances(
     (old, earlier): (&Project, &Adjustment),
     (new, later): (&Project, &Adjustment),
-    wanted: &Wanted<'_>,
+    wanted: &ComparedQuantities<'_>,
     places: &[Vector3<f64>],
-    laid: &Laid,
+    laid: &SystemTransformation,
 ) -> Option<Covariances> {
     let blocks = wanted.points.len() + wanted.photos.len();
     let rows = 2 * (old.observations.len() + new.observations.len());
     if rows.saturating_mul(blocks) > LARGEST {
         return None;
     }
-    let axes =
-        |id: &&str, of: fn(String, usize) -> Quantity| (0..3).map(|a| of((*id).to_owned(), a)).collect::<Vec<_>>();
-    let mut quantities: Vec<Quantity> = wanted.points.iter().flat_map(|id| axes(id, Quantity::Point)).collect();
-    quantities.extend(wanted.photos.iter().flat_map(|id| axes(id, Quantity::Centre)));
+    let axes = |id: &&str, of: fn(String, usize) -> AdjustedQuantity| {
+        (0..3).map(|a| of((*id).to_owned(), a)).collect::<Vec<_>>()
+    };
+    let mut quantities: Vec<AdjustedQuantity> =
+        wanted.points.iter().flat_map(|id| axes(id, AdjustedQuantity::Point)).collect();
+    quantities.extend(wanted.photos.iter().flat_map(|id| axes(id, AdjustedQuantity::Centre)));
     quantities.extend(wanted.parameters.iter().cloned());
     let first = influences(old, earlier, &quantities).ok()?;
     let second = influences(new, later, &quantities).ok()?;
@@ -94,7 +97,7 @@ pub fn covariances(
     let datum = match &laid.carriers {
         Some((carriers, defect)) => {
             let weighted: Vec<(usize, f64)> = carriers.iter().map(|k| (*k, 1.0)).collect();
-            Some(Datum::new(places, &weighted, *defect)?)
+            Some(ReferenceDatum::new(places, &weighted, *defect)?)
         }
         None => None,
     };
@@ -139,7 +142,8 @@ pub fn covariances(
     Some(found)
 }
 
-/// Which observation of the later adjustment every one of the earlier is. None where two measurements of one photo differ.
+/// For each observation of the earlier adjustment, the index of the same observation in the later one. `None` if two measurements in one
+/// photo differ.
 fn shared(old: &Project, first: &Influences, new: &Project, second: &Influences) -> Option<Vec<Option<usize>>> {
     let later: HashMap<&str, &Photo> = new.photos.iter().map(|p| (p.id.as_str(), p)).collect();
     let by_digest: HashMap<&str, &Photo> =
@@ -176,13 +180,13 @@ fn shared(old: &Project, first: &Influences, new: &Project, second: &Influences)
     Some(first.observations.iter().map(partner).collect())
 }
 
-/// What an observation is of, with the photo's name in the later project; none of a photo that this has not.
+/// Key of an observation, with the photo's name in the later project; `None` if that project does not have the photo.
 fn named(e: &Equation, later: impl Fn(&str) -> Option<String>) -> Option<String> {
     let photo = match &e.photo {
         Some(photo) => later(photo)?,
         None => String::new(),
     };
-    // What is given has the photo in its name only where it belongs to one.
+    // Names of given values contain the photo only if they belong to one.
     let name = if e.photo.is_some() { "" } else { e.name.as_str() };
     let kind = e.given.as_ref().map(std::mem::discriminant);
     let parameter = e.photo.is_some().then(|| e.name.rsplit(' ').next().unwrap_or_default());

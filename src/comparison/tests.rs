@@ -113,7 +113,7 @@ fn a_scale_of_its_own_is_compared_and_not_fitted_away() {
     project.distances.push(Distance { from: "0".into(), to: "1".into(), length: 1.0, sigma: 0.1, check: false });
     let after = turned(&adjustment, 1.01);
     let found = compare((&project, &adjustment), (&project, &after));
-    // Another length of the same bar: every point is off, and the scale says by what.
+    // Another length of the same bar: all points differ, by the ratio of the scales.
     let Alignment::Unlike { common: 30, agreeing, scale: Some(scale), mirrored: false, .. } = found.alignment else {
         panic!("{:?}", found.alignment)
     };
@@ -314,7 +314,7 @@ fn unmoved_points_of_independent_results_exceed_the_limit_at_its_own_rate() {
     // Four standard deviations of the binomial distribution.
     let (expected, spread) = (alpha * count as f64, (alpha * count as f64).sqrt());
     assert!((beyond as f64 - expected).abs() < 4.0 * spread, "{beyond} of {count}, expected {expected}");
-    // What the larger standard error of each axis says of such points.
+    // The result for such points with the larger standard error of each axis.
     assert!(by_axis as f64 > 5.0 * expected, "{by_axis}");
 }
 

@@ -2,16 +2,16 @@
 
 use std::borrow::Cow;
 
-/// Numbers of a TIFF file in its byte order, at one of its directories: the first one at first.
-pub struct Reader<'a> {
+/// Reads numbers of a TIFF file in its byte order, at one of its directories: at first the first one.
+pub struct TiffReader<'a> {
     bytes: &'a [u8],
     little: bool,
     big_tiff: bool,
     directory: Option<u64>,
 }
 
-impl<'a> Reader<'a> {
-    /// A reader of a TIFF or BigTIFF file; none where the header is neither.
+impl<'a> TiffReader<'a> {
+    /// A reader of a TIFF or BigTIFF file; `None` if the header is neither.
     pub fn tiff(bytes: &'a [u8]) -> Option<Self> {
         let little = match bytes.get(..2)? {
             b"II" => true,
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Every entry of the directory. Stops where the file does.
-    pub fn entries(&self) -> Vec<Entry> {
+    pub fn entries(&self) -> Vec<DirectoryEntry> {
         let (width, count_width, size) = if self.big_tiff { (8, 8, 20) } else { (4, 2, 12) };
         let mut entries = Vec::new();
         let inside = |n: u64| usize::try_from(n).ok().filter(|n| *n < self.bytes.len());
@@ -77,31 +77,31 @@ impl<'a> Reader<'a> {
             let (here, all) = (at + 4 + width, count.saturating_mul(length as u64));
             let begins = if all <= width as u64 { Some(here) } else { self.number(here, width).and_then(inside) };
             let Some(begins) = begins else { continue };
-            entries.push(Entry { tag: tag as u16, length, count, at: begins });
+            entries.push(DirectoryEntry { tag: tag as u16, length, count, at: begins });
         }
         entries
     }
 
     /// First value of an entry.
-    pub fn first(&self, entry: &Entry) -> Option<u64> {
+    pub fn first(&self, entry: &DirectoryEntry) -> Option<u64> {
         self.number(entry.at, entry.length)
     }
 
     /// All values of an entry, as far as the file has them; no more than a palette has.
-    pub fn values(&self, entry: &Entry) -> Vec<u64> {
+    pub fn values(&self, entry: &DirectoryEntry) -> Vec<u64> {
         (0..entry.count.min(3 << 8) as usize)
             .map_while(|k| self.number(entry.at + k * entry.length, entry.length))
             .collect()
     }
 
     /// All values of an entry, as far as the file has them.
-    pub fn all(&self, entry: &Entry) -> Vec<u64> {
+    pub fn all(&self, entry: &DirectoryEntry) -> Vec<u64> {
         let count = entry.count.min(self.bytes.len() as u64) as usize;
         (0..count).map_while(|k| self.number(entry.at + k * entry.length, entry.length)).collect()
     }
 
     /// Writes a number over the first value of an entry, in a copy of the file.
-    pub fn overwrite(&self, copy: &mut [u8], entry: &Entry, value: u16) {
+    pub fn overwrite(&self, copy: &mut [u8], entry: &DirectoryEntry, value: u16) {
         if let Some(bytes) = copy.get_mut(entry.at..entry.at + entry.length) {
             for (k, byte) in bytes.iter_mut().enumerate() {
                 let place = if self.little { k } else { entry.length - 1 - k };
@@ -117,9 +117,9 @@ fn ordered(number: u64, width: usize, little: bool) -> Vec<u8> {
     (0..width).map(|k| (number >> (8 * place(k).min(7))) as u8).collect()
 }
 
-/// Writes a directory of whole numbers behind a TIFF file and makes it the first one. Entries stand in the order of their tags.
+/// Writes a directory of whole numbers behind a TIFF file and makes it the first one. Entries are in the order of their tags.
 pub fn append_directory(file: &mut Vec<u8>, entries: &[(u16, Vec<u64>)]) {
-    let Some(Reader { little, big_tiff, .. }) = Reader::tiff(file) else { return };
+    let Some(TiffReader { little, big_tiff, .. }) = TiffReader::tiff(file) else { return };
     let (width, count_width, kind) = if big_tiff { (8, 8, 16) } else { (4, 2, 4) };
     let start = file.len();
     let put = |to: &mut Vec<u8>, number: u64, width: usize| to.extend(ordered(number, width, little));
@@ -141,13 +141,13 @@ pub fn append_directory(file: &mut Vec<u8>, entries: &[(u16, Vec<u64>)]) {
     put(&mut directory, 0, width);
     file.extend(directory);
     file.extend(behind);
-    let reader = Reader { bytes: &[], little, big_tiff, directory: None };
+    let reader = TiffReader { bytes: &[], little, big_tiff, directory: None };
     reader.set_start(file, start as u64);
 }
 
 /// One entry of a TIFF directory.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub struct DirectoryEntry {
     /// What it is.
     pub tag: u16,
     /// Bytes of a value, how many there are and where they stand.
@@ -156,7 +156,7 @@ pub struct Entry {
     at: usize,
 }
 
-/// Most bytes of samples that one byte of the file can stand for, by its compression.
+/// Maximum number of bytes of samples that one byte of the file can represent, by its compression.
 pub fn most_from_a_byte(file: &[u8]) -> u64 {
     // deflate: 258 bytes from two bits
     const DEFLATE: u64 = 1032;
@@ -164,7 +164,7 @@ pub fn most_from_a_byte(file: &[u8]) -> u64 {
         [0x89, b'P', ..] => DEFLATE,
         [b'B', b'M', ..] => most_of_bmp(file),
         [b'I' | b'M', ..] => {
-            let Some(reader) = Reader::tiff(file) else { return DEFLATE };
+            let Some(reader) = TiffReader::tiff(file) else { return DEFLATE };
             let entries = reader.entries();
             let value = |tag: u16| entries.iter().find(|entry| entry.tag == tag).and_then(|entry| reader.first(entry));
             // bits and places of a palette become bytes, three where they are colours
@@ -185,7 +185,7 @@ pub fn most_from_a_byte(file: &[u8]) -> u64 {
 
 /// The same of a BMP file, by the bits of a pixel and the compression in its header, which is OS/2's of 12 bytes or begins as Windows' of 40.
 fn most_of_bmp(file: &[u8]) -> u64 {
-    let reader = Reader { bytes: file, little: true, big_tiff: false, directory: None };
+    let reader = TiffReader { bytes: file, little: true, big_tiff: false, directory: None };
     let (bits, compression) = match reader.number(14, 4) {
         Some(12) => (reader.number(24, 2), None),
         _ => (reader.number(28, 2), reader.number(30, 4)),

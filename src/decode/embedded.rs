@@ -18,7 +18,7 @@ const PIECE: usize = 1 << 15;
 const MOST_BYTES: u64 = 4 << 20;
 const MOST_PIXELS: u64 = 5_000_000;
 
-/// Directories of one file that are looked at, files within the file, and bytes that are read in all: what points in circles ends.
+/// Directories of one file that are examined, files within the file, and bytes that are read in all: what points in circles ends.
 const MOST_DIRECTORIES: usize = 24;
 const MOST_FILES: usize = 8;
 const MOST_READ: usize = 24 << 20;
@@ -26,19 +26,19 @@ const MOST_READ: usize = 24 << 20;
 /// A photo before it is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Embedded {
-    /// What the file carries of itself, reduced, on the stored grid.
+    /// The embedded preview, reduced, on the stored grid.
     pub picture: Picture,
     /// How it has to be turned for showing, 1 to 8.
     pub orientation: u8,
 }
 
-/// Finds the smallest embedded picture that is no smaller than `max_side`, else the largest; it is reduced to `max_side`. None where
+/// Finds the smallest embedded picture that is no smaller than `max_side`, else the largest; it is reduced to `max_side`. `None` if
 /// there is none, or where it is damaged: the photo itself may still be sound.
 pub fn embedded(file: &mut (impl Read + Seek), max_side: u32) -> Option<Embedded> {
     let file = Pieces { file, pieces: Vec::new(), read: 0 };
-    let mut search = Search { file, found: Found::default(), files: 0 };
+    let mut search = PictureSearch { file, found: FoundPictures::default(), files: 0 };
     search.file_at(0);
-    let Found { candidates, largest, orientation } = search.found;
+    let FoundPictures { candidates, largest, orientation } = search.found;
     let picture = best(&mut search.file, candidates, max_side)?;
     // thumbnails of one shape have bars where the photo has another
     let picture = match largest {
@@ -48,9 +48,9 @@ pub fn embedded(file: &mut (impl Read + Seek), max_side: u32) -> Option<Embedded
     Some(Embedded { picture, orientation: if (1..=8).contains(&orientation) { orientation } else { 1 } })
 }
 
-/// A picture in the file.
+/// A picture embedded in the file.
 #[derive(Clone, Copy, Debug)]
-enum Candidate {
+enum EmbeddedPicture {
     /// A file of its own within the file.
     Jpeg { at: u64, length: u64 },
     /// Red, green and blue bytes, row by row.
@@ -58,8 +58,8 @@ enum Candidate {
 }
 
 #[derive(Default)]
-struct Found {
-    candidates: Vec<Candidate>,
+struct FoundPictures {
+    candidates: Vec<EmbeddedPicture>,
     /// Width and height of the largest picture that is spoken of.
     largest: [u64; 2],
     orientation: u8,
@@ -73,7 +73,7 @@ struct Pieces<'a, F> {
 }
 
 impl<F: Read + Seek> Pieces<'_, F> {
-    /// So many bytes at a place; none where the file ends before.
+    /// So many bytes at a place; `None` if the file ends before.
     fn bytes(&mut self, at: u64, length: usize) -> Option<&[u8]> {
         let holds = |(start, piece): &(u64, Vec<u8>)| *start <= at && at - start + length as u64 <= piece.len() as u64;
         let place = match self.pieces.iter().position(holds) {
@@ -101,13 +101,13 @@ impl<F: Read + Seek> Pieces<'_, F> {
     }
 }
 
-struct Search<'a, F> {
+struct PictureSearch<'a, F> {
     file: Pieces<'a, F>,
-    found: Found,
+    found: FoundPictures,
     files: usize,
 }
 
-impl<F: Read + Seek> Search<'_, F> {
+impl<F: Read + Seek> PictureSearch<'_, F> {
     /// Looks into whatever begins at a place, as far as it is known.
     fn file_at(&mut self, at: u64) -> Option<()> {
         self.files += 1;
@@ -129,7 +129,7 @@ impl<F: Read + Seek> Search<'_, F> {
 
     fn candidate(&mut self, at: u64, length: u64) {
         if (1..=MOST_BYTES).contains(&length) {
-            self.found.candidates.push(Candidate::Jpeg { at, length });
+            self.found.candidates.push(EmbeddedPicture::Jpeg { at, length });
         }
     }
 
@@ -197,7 +197,7 @@ impl<F: Read + Seek> Search<'_, F> {
             };
             let here = values.saturating_mul(length) <= 4;
             let place = if here { entry + 8 } else { base + self.file.number(entry + 8, 4, little)? };
-            // what points beyond the file says nothing
+            // entries that point beyond the file are ignored
             let value = self.file.number(place, length as usize, little).unwrap_or(0);
             match tag {
                 46 if !here => {
@@ -225,7 +225,7 @@ impl<F: Read + Seek> Search<'_, F> {
         Some(())
     }
 
-    /// What a directory points to, where it is a picture for showing.
+    /// Keeps the picture of a directory if it is a suitable preview.
     fn offer(&mut self, base: u64, of: &Directory) {
         const FILTERS: u64 = 32803;
         const LINEAR: u64 = 34892;
@@ -242,7 +242,7 @@ impl<F: Read + Seek> Search<'_, F> {
                 if let [Ok(width), Ok(height)] = of.size.map(u32::try_from)
                     && (1..=MOST_BYTES / 3).contains(&(u64::from(width) * u64::from(height)))
                 {
-                    self.found.candidates.push(Candidate::Rgb { at: base + of.strip, size: [width, height] });
+                    self.found.candidates.push(EmbeddedPicture::Rgb { at: base + of.strip, size: [width, height] });
                 }
             }
             _ => {}
@@ -268,7 +268,7 @@ impl<F: Read + Seek> Search<'_, F> {
     }
 }
 
-/// What one directory says of a picture.
+/// Description of a picture in one directory.
 #[derive(Default)]
 struct Directory {
     reduced: bool,
@@ -284,10 +284,14 @@ struct Directory {
 }
 
 /// The smaller of bytes first: they are the smaller ones of pixels.
-fn best<F: Read + Seek>(file: &mut Pieces<'_, F>, mut candidates: Vec<Candidate>, max_side: u32) -> Option<Picture> {
+fn best<F: Read + Seek>(
+    file: &mut Pieces<'_, F>,
+    mut candidates: Vec<EmbeddedPicture>,
+    max_side: u32,
+) -> Option<Picture> {
     candidates.sort_by_key(|candidate| match *candidate {
-        Candidate::Jpeg { length, .. } => length,
-        Candidate::Rgb { size: [width, height], .. } => 3 * u64::from(width) * u64::from(height),
+        EmbeddedPicture::Jpeg { length, .. } => length,
+        EmbeddedPicture::Rgb { size: [width, height], .. } => 3 * u64::from(width) * u64::from(height),
     });
     let mut kept: Option<Picture> = None;
     for candidate in candidates {
@@ -306,11 +310,11 @@ fn best<F: Read + Seek>(file: &mut Pieces<'_, F>, mut candidates: Vec<Candidate>
 /// Its size in the file, and the picture reduced.
 fn decoded<F: Read + Seek>(
     file: &mut Pieces<'_, F>,
-    candidate: Candidate,
+    candidate: EmbeddedPicture,
     max_side: u32,
 ) -> Option<([u32; 2], Picture)> {
     match candidate {
-        Candidate::Jpeg { at, length } => {
+        EmbeddedPicture::Jpeg { at, length } => {
             let bytes = file.bytes(at, length as usize)?;
             let frame = jpeg::header(bytes).ok()?;
             ((frame.width * frame.height) as u64 <= MOST_PIXELS).then_some(())?;
@@ -318,7 +322,7 @@ fn decoded<F: Read + Seek>(
             let (_, picture) = photo_and_picture(bytes, Channel::Grey, max_side).ok()?;
             Some((size, picture))
         }
-        Candidate::Rgb { at, size } => {
+        EmbeddedPicture::Rgb { at, size } => {
             let bytes = file.bytes(at, 3 * size[0] as usize * size[1] as usize)?.to_vec();
             let image = image::RgbImage::from_raw(size[0], size[1], bytes)?;
             Some((size, super::show::reduced(&image.into(), max_side)))

@@ -11,7 +11,7 @@ mod scan;
 mod transform;
 mod usual;
 
-pub use frame::{Colours, Frame, Refusal};
+pub use frame::{Colours, FrameHeader, Refusal};
 
 use crate::error::Damage;
 use frame::{Scan, Segment, Tables};
@@ -28,7 +28,7 @@ pub struct Plane8 {
     pub samples: Vec<u8>,
 }
 
-/// What a JPEG file holds of its first plane, which is luma in most, and a hint of its colours.
+/// Contents of a JPEG file: the first plane, usually luma, and whether it has colours.
 pub struct Luma {
     /// The plane.
     pub plane: Plane8,
@@ -38,7 +38,7 @@ pub struct Luma {
     pub damaged: Vec<[u32; 2]>,
 }
 
-/// Reads the first plane, which has to be of full size ([`Frame::has_full_luma`]).
+/// Reads the first plane, which has to be of full size ([`FrameHeader::has_full_luma`]).
 ///
 /// # Errors
 /// [`Refusal`] for kinds of JPEG that are not read and for files of which no row is whole.
@@ -46,7 +46,7 @@ pub fn luma(bytes: &[u8]) -> Result<Luma, Refusal> {
     Ok(read(bytes, false)?.0)
 }
 
-/// First row of pixels of which any plane could not be decoded; none where all are whole.
+/// First row of pixels of which any plane could not be decoded; `None` if all are whole.
 ///
 /// General decoders lose their place at damage: what they give below it, and in the scans after it, is not sure.
 ///
@@ -73,7 +73,7 @@ fn read(bytes: &[u8], all: bool) -> Result<(Luma, usize), Refusal> {
                 if planes.is_some() {
                     break;
                 }
-                let frame = Frame::read(kind, payload, &tables)?;
+                let frame = FrameHeader::read(kind, payload, &tables)?;
                 frame.check_size(bytes.len())?;
                 planes = Some(Planes::new(frame, all));
             }
@@ -102,17 +102,17 @@ fn read(bytes: &[u8], all: bool) -> Result<(Luma, usize), Refusal> {
     Ok((planes.ok_or(Refusal::Broken(Damage::NoPicture))?.finish(ended, &bytes[data..])?, scans))
 }
 
-/// What a file says of itself before its first scan.
+/// Headers of a file before its first scan.
 ///
 /// # Errors
 /// As [`luma`].
-pub fn header(bytes: &[u8]) -> Result<Frame, Refusal> {
+pub fn header(bytes: &[u8]) -> Result<FrameHeader, Refusal> {
     let mut tables = Tables::default();
     let mut at = 2;
     while let Some(segment) = frame::next(bytes, &mut at) {
         match segment {
             Segment::Frame(kind, payload) => {
-                let frame = Frame::read(kind, payload, &tables)?;
+                let frame = FrameHeader::read(kind, payload, &tables)?;
                 frame.check_size(bytes.len())?;
                 return Ok(frame);
             }

@@ -16,7 +16,7 @@ use crate::limits::DECODED;
 /// The file without what decoders stumble over and pictures do not need.
 ///
 /// Compressed profiles and texts of PNG are unpacked by its decoder whatever their size. A JPEG that names its components R, G
-/// and B stores them; its decoder believes that of Adobe's mark alone. Of a TIFF the picture that is measured comes first.
+/// and B stores them; its decoder uses only that of Adobe's marker. Of a TIFF the picture that is measured comes first.
 pub fn prepared(file: &[u8]) -> Result<Cow<'_, [u8]>> {
     Ok(match signature(file) {
         Signature::Png => bytes::without_texts(file),
@@ -81,7 +81,7 @@ fn too_large(width: u64, height: u64) -> Error {
     Error::ImageSize { width, height, limit: PIXEL_LIMIT, at: Place::default() }
 }
 
-/// What a header claims beyond what the bytes can hold.
+/// A size in a header that exceeds what the bytes can hold.
 pub fn too_few_bytes(width: u32, height: u32) -> Error {
     broken(Damage::ClaimsTooMuch { width, height })
 }
@@ -106,7 +106,7 @@ pub fn bits(colour: ColorType) -> Result<u32> {
     }
 }
 
-/// What the decoder of a whole picture says, in our words.
+/// The engine's error for an error of the picture decoder.
 pub fn decoding_error(error: ImageError) -> Error {
     match error {
         ImageError::Unsupported(unsupported) => {

@@ -6,7 +6,7 @@ use image::{ColorType, ImageDecoder, ImageError, ImageResult};
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
 use super::broken;
-use super::bytes::Reader;
+use super::bytes::TiffReader;
 use super::open::unread;
 use crate::error::{Damage, PictureKind, Result};
 
@@ -17,7 +17,7 @@ const PALETTE: u64 = 3;
 
 /// A decoder of such a file.
 pub struct PaletteDecoder {
-    /// The file, which now says that its samples are grey.
+    /// The file, now marked as grey.
     file: Vec<u8>,
     size: (u32, u32),
     bits: u32,
@@ -25,12 +25,12 @@ pub struct PaletteDecoder {
 }
 
 impl PaletteDecoder {
-    /// None for TIFF files without a palette.
+    /// `None` for TIFF files without a palette.
     ///
     /// # Errors
     /// [`UnknownImageFormat`](crate::Error::UnknownImageFormat) for palettes of more than 8 bits, [`BrokenImage`](crate::Error::BrokenImage).
     pub fn new(file: &[u8]) -> Result<Option<Self>> {
-        let Some(reader) = Reader::tiff(file) else { return Ok(None) };
+        let Some(reader) = TiffReader::tiff(file) else { return Ok(None) };
         let entries = reader.entries();
         let find = |tag| entries.iter().find(|entry| entry.tag == tag);
         let Some(photometric) = find(PHOTOMETRIC).filter(|entry| reader.values(entry) == [PALETTE]) else {

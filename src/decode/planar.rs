@@ -8,7 +8,7 @@ use std::io::Cursor;
 use image::{ColorType, ImageDecoder, ImageError, ImageResult};
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 
-use super::bytes::Reader;
+use super::bytes::TiffReader;
 use super::open::{check_size, too_few_bytes, unread};
 use super::{broken, bytes};
 use crate::error::{Damage, PictureKind, Result};
@@ -41,13 +41,13 @@ pub struct PlanarDecoder {
 }
 
 impl PlanarDecoder {
-    /// None for files whose samples lie together, and for those of one sample.
+    /// `None` for files whose samples lie together, and for those of one sample.
     ///
     /// # Errors
     /// [`UnknownImageFormat`](crate::Error::UnknownImageFormat) for kinds of samples that are not read,
     /// [`BrokenImage`](crate::Error::BrokenImage), [`ImageSize`](crate::Error::ImageSize).
     pub fn new(file: &[u8]) -> Result<Option<Self>> {
-        let Some(reader) = Reader::tiff(file) else { return Ok(None) };
+        let Some(reader) = TiffReader::tiff(file) else { return Ok(None) };
         let entries = reader.entries();
         let find = |tag| entries.iter().find(|entry| entry.tag == tag);
         let value = |tag| find(tag).and_then(|entry| reader.first(entry));

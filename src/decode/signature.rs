@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::bytes::Reader;
+use super::bytes::TiffReader;
 use crate::error::PictureKind;
 
-/// What a file is.
+/// Kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signature {
     /// JPEG.
@@ -31,7 +31,7 @@ pub enum Signature {
 pub enum Packed {
     /// HEIC or HEIF, by name.
     Heif(&'static str),
-    /// A sensor's samples in a maker's format; empty where that is not known.
+    /// A sensor's samples in a maker's format; empty if that is not known.
     Raw(&'static str),
 }
 
@@ -117,7 +117,7 @@ fn tiff(bytes: &[u8]) -> Signature {
     const SUB_DIRECTORIES: u16 = 330;
     const DNG_VERSION: u16 = 50706;
     const COLOUR_FILTER_ARRAY: u64 = 32803;
-    let Some(reader) = Reader::tiff(bytes) else { return Signature::Tiff };
+    let Some(reader) = TiffReader::tiff(bytes) else { return Signature::Tiff };
     let entries = reader.entries();
     let value = |tag| entries.iter().find(|e| e.tag == tag).and_then(|e| reader.first(e));
     if value(DNG_VERSION).is_some() {

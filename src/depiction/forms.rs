@@ -1,34 +1,34 @@
 //! Drawing of a measured feature: its outline as line segments, and the surface of its points as triangles.
 //!
-//! Forms end where their points do: a plane at their convex hull, an axis at the outermost of them.
+//! Forms end at their points: a plane at their convex hull, an axis at the outermost points.
 
 use nalgebra::Vector3;
 
 use crate::adjustment::MeasuredFeature;
 
-/// Pieces of a drawn circle.
+/// Number of segments of a drawn circle.
 const ROUND: usize = 72;
-/// Bands of a drawn sphere from pole to pole.
+/// Number of bands of a drawn sphere from pole to pole.
 const BANDS: usize = 24;
 
-/// A feature as it is drawn, in the object's system.
+/// The drawing of a feature, in the object coordinate system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// Rings, edges, lines between ends.
+    /// Line segments: circles, edges, lines between end points.
     pub outline: Vec<[[f64; 3]; 2]>,
-    /// The surface; empty for what has none.
+    /// Triangles of the surface; empty for lines and distances.
     pub surface: Vec<[[f64; 3]; 3]>,
-    /// Where its name stands.
+    /// Position of the name.
     pub label: Option<[f64; 3]>,
 }
 
-type Vector = Vector3<f64>;
+type SpaceVector = Vector3<f64>;
 
-/// A feature with the places of its points.
+/// The drawing of a feature; `points` are the coordinates of its points.
 pub fn drawn(feature: &MeasuredFeature, points: &[[f64; 3]]) -> Drawn {
     let mut drawn = Drawn { label: feature.position, ..Drawn::default() };
     let radius = feature.value.unwrap_or(0.0) / 2.0;
-    let (position, direction) = (feature.position.map(Vector::from), feature.direction.map(Vector::from));
+    let (position, direction) = (feature.position.map(SpaceVector::from), feature.direction.map(SpaceVector::from));
     match (feature.kind.as_str(), position, direction) {
         ("circle", Some(centre), Some(n)) => {
             let ring = ring(&centre, &n, radius);
@@ -36,7 +36,7 @@ pub fn drawn(feature: &MeasuredFeature, points: &[[f64; 3]]) -> Drawn {
             drawn.edge(&ring);
         }
         ("sphere", Some(centre), _) => {
-            for n in [Vector::x(), Vector::y(), Vector::z()] {
+            for n in [SpaceVector::x(), SpaceVector::y(), SpaceVector::z()] {
                 drawn.edge(&ring(&centre, &n, radius));
             }
             drawn.surface = sphere(&centre, radius);
@@ -44,8 +44,9 @@ pub fn drawn(feature: &MeasuredFeature, points: &[[f64; 3]]) -> Drawn {
         ("cylinder", _, Some(n)) => drawn.cylinder(feature, &n, radius),
         ("plane", Some(p), Some(n)) => {
             let [e, f] = across(&n);
-            let inside = points.iter().map(|x| Vector::from(*x) - p).map(|v| [v.dot(&e), v.dot(&f)]);
-            let corners: Vec<Vector> = hull(inside.collect()).into_iter().map(|[a, b]| p + a * e + b * f).collect();
+            let inside = points.iter().map(|x| SpaceVector::from(*x) - p).map(|v| [v.dot(&e), v.dot(&f)]);
+            let corners: Vec<SpaceVector> =
+                hull(inside.collect()).into_iter().map(|[a, b]| p + a * e + b * f).collect();
             drawn.edge(&corners);
             drawn.surface = fan(&p, &corners);
             drawn.label = corners.first().map(|c| (*c).into()).or(drawn.label);
@@ -62,11 +63,11 @@ pub fn drawn(feature: &MeasuredFeature, points: &[[f64; 3]]) -> Drawn {
 
 impl Drawn {
     /// A closed edge.
-    fn edge(&mut self, corners: &[Vector]) {
+    fn edge(&mut self, corners: &[SpaceVector]) {
         self.outline.extend(around(corners).map(|(a, b)| [a.into(), b.into()]));
     }
 
-    fn cylinder(&mut self, feature: &MeasuredFeature, n: &Vector, radius: f64) {
+    fn cylinder(&mut self, feature: &MeasuredFeature, n: &SpaceVector, radius: f64) {
         let &[from, to] = &feature.ends[..] else { return };
         let (foot, head) = (ring(&from.into(), n, radius), ring(&to.into(), n, radius));
         self.edge(&foot);
@@ -82,33 +83,33 @@ impl Drawn {
     }
 }
 
-/// Neighbours along a closed line.
-fn around(corners: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
+/// Pairs of neighbouring corners of a closed line.
+fn around(corners: &[SpaceVector]) -> impl Iterator<Item = (SpaceVector, SpaceVector)> + '_ {
     corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
-/// Triangles from the middle to a closed edge.
-fn fan(middle: &Vector, edge: &[Vector]) -> Vec<[[f64; 3]; 3]> {
+/// Triangles between a centre and a closed edge.
+fn fan(middle: &SpaceVector, edge: &[SpaceVector]) -> Vec<[[f64; 3]; 3]> {
     around(edge).map(|(a, b)| [*middle, a, b].map(Into::into)).collect()
 }
 
-/// Two directions across a third.
-fn across(n: &Vector) -> [Vector; 2] {
+/// Two unit vectors perpendicular to `n` and to each other.
+fn across(n: &SpaceVector) -> [SpaceVector; 2] {
     let least = n.iamin();
-    let e = n.cross(&Vector::from_fn(|k, _| if k == least { 1.0 } else { 0.0 })).normalize();
+    let e = n.cross(&SpaceVector::from_fn(|k, _| if k == least { 1.0 } else { 0.0 })).normalize();
     [e, n.cross(&e)]
 }
 
-fn ring(centre: &Vector, n: &Vector, radius: f64) -> Vec<Vector> {
+fn ring(centre: &SpaceVector, n: &SpaceVector, radius: f64) -> Vec<SpaceVector> {
     let [e, f] = across(n);
     let turn = |k: usize| std::f64::consts::TAU * k as f64 / ROUND as f64;
     (0..ROUND).map(|k| centre + radius * (turn(k).cos() * e + turn(k).sin() * f)).collect()
 }
 
-fn sphere(centre: &Vector, radius: f64) -> Vec<[[f64; 3]; 3]> {
+fn sphere(centre: &SpaceVector, radius: f64) -> Vec<[[f64; 3]; 3]> {
     let parallel = |band: usize| {
         let latitude = std::f64::consts::PI * (band as f64 / BANDS as f64 - 0.5);
-        ring(&(centre + radius * latitude.sin() * Vector::z()), &Vector::z(), radius * latitude.cos())
+        ring(&(centre + radius * latitude.sin() * SpaceVector::z()), &SpaceVector::z(), radius * latitude.cos())
     };
     let mut all = Vec::new();
     for band in 0..BANDS {
@@ -126,7 +127,7 @@ fn sphere(centre: &Vector, radius: f64) -> Vec<[[f64; 3]; 3]> {
     all
 }
 
-/// What a rubber band around places in a plane would touch, counter-clockwise (Andrew's monotone chain).
+/// Convex hull of points in a plane, counter-clockwise (Andrew's monotone chain).
 fn hull(mut all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     all.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let half = |places: &mut dyn Iterator<Item = &[f64; 2]>| {
@@ -159,14 +160,14 @@ mod tests {
 
     fn area(surface: &[[[f64; 3]; 3]]) -> f64 {
         let one = |[a, b, c]: &[[f64; 3]; 3]| {
-            let [a, b, c] = [a, b, c].map(|p| Vector::from(*p));
+            let [a, b, c] = [a, b, c].map(|p| SpaceVector::from(*p));
             (b - a).cross(&(c - a)).norm() / 2.0
         };
         surface.iter().map(one).sum()
     }
 
     fn feature(kind: &str, diameter: Option<f64>) -> MeasuredFeature {
-        let n = Vector::new(0.3, -0.5, 0.8).normalize();
+        let n = SpaceVector::new(0.3, -0.5, 0.8).normalize();
         MeasuredFeature {
             kind: kind.into(),
             value: diameter,
@@ -178,15 +179,15 @@ mod tests {
 
     #[test]
     fn surfaces_lie_on_their_forms_and_have_their_areas() {
-        let centre = Vector::new(10.0, 20.0, 30.0);
-        let n = Vector::from(feature("", None).direction.expect("one"));
+        let centre = SpaceVector::new(10.0, 20.0, 30.0);
+        let n = SpaceVector::from(feature("", None).direction.expect("one"));
         let circle = drawn(&feature("circle", Some(4.0)), &[]);
         assert!((area(&circle.surface) / (4.0 * PI) - 1.0).abs() < 0.002, "{}", area(&circle.surface));
         assert_eq!(circle.outline.len(), ROUND);
 
         let sphere = drawn(&feature("sphere", Some(4.0)), &[]);
         assert!((area(&sphere.surface) / (16.0 * PI) - 1.0).abs() < 0.006, "{}", area(&sphere.surface));
-        let off = |p: &[f64; 3]| ((Vector::from(*p) - centre).norm() - 2.0).abs();
+        let off = |p: &[f64; 3]| ((SpaceVector::from(*p) - centre).norm() - 2.0).abs();
         assert!(sphere.surface.iter().flatten().chain(sphere.outline.iter().flatten()).all(|p| off(p) < 1e-12));
 
         let mut pipe = feature("cylinder", Some(4.0));
@@ -194,7 +195,7 @@ mod tests {
         let cylinder = drawn(&pipe, &[]);
         assert!((area(&cylinder.surface) / (28.0 * PI) - 1.0).abs() < 0.001, "{}", area(&cylinder.surface));
         let off = |p: &[f64; 3]| {
-            let v = Vector::from(*p) - centre;
+            let v = SpaceVector::from(*p) - centre;
             ((v - v.dot(&n) * n).norm() - 2.0).abs()
         };
         assert!(cylinder.surface.iter().flatten().all(|p| off(p) < 1e-12));
@@ -204,7 +205,7 @@ mod tests {
         let points: Vec<[f64; 3]> = corners.map(|[a, b]| (centre + a * e + b * f + 0.1 * n).into()).into();
         let plane = drawn(&feature("plane", None), &points);
         assert!((area(&plane.surface) - 12.0).abs() < 1e-9, "{}", area(&plane.surface));
-        assert!(plane.surface.iter().flatten().all(|p| (Vector::from(*p) - centre).dot(&n).abs() < 1e-12));
+        assert!(plane.surface.iter().flatten().all(|p| (SpaceVector::from(*p) - centre).dot(&n).abs() < 1e-12));
     }
 
     #[test]

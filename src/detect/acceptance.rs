@@ -1,14 +1,14 @@
 //! Every threshold of the detector.
 //!
-//! One table a room, in the order in which a picture passes them. A row has a name, a value, and where the value comes from:
+//! One table per step of the detection, in the order of the steps. A row has a name, a value, and the source of the value:
 //!
-//! - `derived`: from an equation or from the geometry of the thing.
-//! - `measured`: the value that a measurement has set; the measurement is named.
-//! - `judged`: chosen between values that would do, and held by a bench: `detect` (clutter and known discs), `photos` (webcam
-//!   grids, pictures without targets, random cameras, conditions) or `codes`. Nothing says that another value would be worse.
+//! - `derived`: from an equation or from geometry.
+//! - `measured`: set by a measurement, which is named.
+//! - `judged`: chosen from a range of suitable values, and checked by a bench: `detect` (clutter and known discs), `photos` (webcam
+//!   grids, pictures without targets, random cameras, conditions) or `codes`. Another value may be as good.
 //!
-//! Lengths are pixels of the picture that is searched, noise is the standard deviation of a pixel. How something is computed (rows
-//! looked at, bins, iterations, corrections that end a fit) decides nothing and stays with its algorithm.
+//! Lengths are pixels of the picture that is searched, noise is the standard deviation of a pixel. Parameters of the computation (rows
+//! examined, bins, iterations, convergence limits) reject no target and are in the files of their algorithms.
 
 /// Where a value comes from.
 enum Source {
@@ -34,28 +34,20 @@ pub(crate) mod size {
     use super::Source;
 
     table! {
-        /// Axis ratio of the search's outlines, known to a part of a pixel, over the least one asked for.
+        /// Minimum axis ratio of the search's outlines, over the user's minimum.
         SEARCHED_FLAT: f64 = 0.76, Judged "0.22 for the usual 0.29: flatter chains of runs are bars";
-        /// The same of an ellipse of moments that the search goes on with.
-        MOMENTS_FLAT: f64 = 0.7, Judged "moments of a few rows are off by a third of the flat axis";
-        /// The same after the first fit through edges.
-        FIRST_FLAT: f64 = 0.85, Judged "the first fit has 32 rays";
-        /// Longest side of a blob's box over the smallest diameter, and over the largest one with what blur adds.
+        /// Minimum longest side of a blob's box over the smallest diameter, also of half outlines and of blobs fitted with the blur of the photo's
+        /// other targets; maximum over the largest diameter.
         BLOB_SMALL: f64 = 0.7, Judged "up to one step of rows is unseen above and below: 1.5 of 5 px";
-        BLOB_LARGE: f64 = 1.3, Judged "a third more than asked for is looked at";
-        BLOB_GROWN: f64 = 4.0, Judged "two pixels of blur on each side";
-        /// Diameter of edges over the smallest and the largest one.
+        BLOB_LARGE: f64 = 1.3, Judged "a third more than the user's maximum";
+        /// Minimum diameter of the ellipse through edges, over the smallest diameter.
         EDGES_SMALL: f64 = 0.92, Judged "edges of small discs lie further in than the fit finds their rim";
-        EDGES_LARGE: f64 = 1.02, Judged "no target of the largest size is lost to the scatter of its edges";
         /// Diameter of a fit over the smallest one.
         FIT_SMALL: f64 = 0.95, Judged "no target of the smallest size is lost to the scatter of its diameter";
-        /// Pixels between an outline and the border of the picture.
+        /// Minimum distance of an outline from the border of the picture, pixels.
         ROOM: f64 = 2.0, Derived "bilinear samples and falls over two pixels need them";
-        /// Diameter from which on the quartered picture is searched too.
+        /// Diameter from which the picture reduced to a quarter is searched too.
         LARGE: f64 = 40.0, Judged "ten pixels there";
-        /// From and up to this share of the asked diameters blobs without a shape are tried by what a photo's targets have in common.
-        ALIKE_SMALL: f64 = 0.7, Judged "blur makes small discs look larger, noise smaller";
-        ALIKE_LARGE: f64 = 1.5, Judged "as above";
     }
 }
 
@@ -64,7 +56,7 @@ pub(crate) mod picture {
     use super::Source;
 
     table! {
-        /// Undershoot, as a share of the step, from which an edge is sharpened.
+        /// Undershoot, as a share of the step, from which an edge counts as sharpened.
         SHARPENED: f64 = 0.07, Judged "a lens leaves less; the sharpened webcam pictures of `photos` have 0.27 to 0.55";
         /// Flat sides of steps that are needed to say so.
         STEPS: usize = 24, Derived "the median of 24 has a standard error of a quarter of their scatter";
@@ -72,13 +64,13 @@ pub(crate) mod picture {
         STEP: [f64; 3] = [0.2, 10.0, 0.4], Judged "a fifth of the range is a target's rim in `photos`";
         /// Scatter of a flat side, as a share of the step and in noise.
         FLAT: [f64; 2] = [0.1, 3.0], Derived "4 noise of the least step: four samples of noise have that range once in forty";
-        /// Noise, as a share of the range, that hides small targets from the search's own thresholds.
-        NOISY: f64 = 0.014, Judged "the threshold of the search is then a tenth of the range: what blur leaves of a small disc";
-        /// Share of clipped samples from which paper is over-exposed: of its targets no more than the foot is seen.
-        OVEREXPOSED: f64 = 0.4, Judged "paper that fills much of a photo";
-        /// Excess of differences at the borders of blocks from which a picture is a compressed one.
-        COMPRESSED: f64 = 0.12, Judged "what is not compressed shows at most some hundredths by chance";
-        /// Standard errors by which borders of blocks stand out of their neighbours.
+        /// Noise, as a share of the range, above which the thresholds of the search miss small targets.
+        NOISY: f64 = 0.014, Judged "the threshold of the search is then a tenth of the range: what blur leaves of a small disc; without it, two thirds of the targets in noise of 20 are lost";
+        /// Share of saturated samples from which the paper counts as saturated: only the foot of the profiles of its targets is visible.
+        OVEREXPOSED: f64 = 0.4, Judged "paper that fills much of a photo; without it, 0.3 of the targets on paper exposed twice too long are lost";
+        /// Excess of differences at the borders of blocks from which a picture counts as compressed.
+        COMPRESSED: f64 = 0.12, Judged "uncompressed pictures have at most some hundredths by chance";
+        /// Significance, in standard errors, of the difference between borders of blocks and their neighbours.
         CERTAIN: f64 = 4.0, Derived "chance: 3 in 100,000 pictures";
         /// Samples of a picture of two levels that differ from all four neighbours: their share of the changes along rows, and of all, from
         /// which they are the dots of a dithering.
@@ -86,45 +78,35 @@ pub(crate) mod picture {
         DOTS: f64 = 0.005, Judged "specks of a scan are fewer, a grey disc of a hundredth of the picture has as many";
         /// Second differences that are enough where most of the picture is clipped.
         ENOUGH: u64 = 400, Derived "their quartile is good to 9 %";
-        /// Most grey levels, and noise, of a drawing without soft edges.
-        FEW: usize = 8, Judged "drawings and screenshots have few";
+        /// Maximum number of grey levels, and noise, of a drawing without soft edges.
+        FEW: usize = 8, Judged "drawings and screenshots have few; if they are treated as photos, the error of their targets is 2.3 of the stated sigma";
         DRAWN: f64 = 0.5, Derived "rounding alone leaves 0.29";
-        /// Samples at the largest level that pile up, and how many times those of the four levels next to it they are.
-        PILE: u32 = 20, Judged "fewer tell nothing";
+        /// Saturation: minimum number of samples at the largest level, and their minimum ratio to those at the four levels below it.
+        PILE: u32 = 20, Judged "fewer are not conclusive";
         PILED: u32 = 2, Judged "a histogram of noise and light does not do that at its end";
-        /// Smallest edge that counts: in noise, as a share of the range, in grey levels.
+        /// Minimum step of an edge: in noise, as a share of the range, in grey levels.
         EDGE: [f64; 3] = [3.0, 0.015, 2.5], Derived "the fall between two bilinear samples has 0.94 of the noise: chance passes once in 1400 places";
-        /// Smallest difference over three pixels that starts an edge of the search, in the same units.
+        /// Minimum difference over three pixels that starts an edge of the search, in the same units.
         SEARCHED: [f64; 3] = [6.5, 0.03, 5.0], Derived "4.6 sigmas of a difference of two samples: chance passes four times in a million";
         /// The same in the quartered picture, whose noise is less than half.
         QUARTERED: [f64; 3] = [3.0, 0.03, 4.0], Derived "six sigmas: means of eight samples have 0.35 of the noise";
-        /// Strong differences, as shares of the picture's range: what lies before a target in a tone between its own and the paper's has
-        /// weaker edges than the target.
-        STRONG: [f64; 2] = [0.45, 0.65], Measured "targets behind cables of `photos -- conditions`: of 1200 1134 are found or told as hidden instead of 1064; 0.15 to 0.75 tried";
-        /// Least rise of the edges of every target found, in the second level of the search, for which covered ones are not looked for
-        /// on the lowest.
-        FAINTER: f64 = 1.4, Judged "covered ones may be fainter than those that are seen: what shades one often covers it";
-        /// Least semi-minor axis, and contrast, of rims that tell of a sharpening.
-        RIM: f64 = 5.0, Judged "smaller insides have no level of their own";
-        RIM_CONTRAST: f64 = 8.0, Derived "rounding is then a sixteenth of the profile";
-        /// Amount below which no sharpening is undone.
-        LITTLE: f64 = 0.15, Judged "the fit of a rendered ellipse takes it for a lens";
-        /// Share of the residual that a sharpening has to explain.
-        EXPLAINED: f64 = 0.3, Judged "random cameras of `photos` with and without a sharpening";
-        /// Rims that are enough for the profile across them.
-        RIMS: usize = 120, Judged "more change the mean profile by less than what is modelled of it";
+        /// Strong differences, as shares of the picture's range: an occluder with a level between those of target and paper has weaker edges
+        /// than the target.
+        STRONG: [f64; 2] = [0.45, 0.65], Measured "targets behind cables of `photos -- conditions`: of 1200, 1134 are found or reported as occluded instead of 1064; 0.15 to 0.75 tried";
+        /// Minimum semi-minor axis of rims from which a sharpening is estimated.
+        RIM: f64 = 5.0, Judged "smaller targets have no level inside: with all rims, one webcam grid of `photos` has one more false target";
+        /// Amount of sharpening below which it is not undone.
+        LITTLE: f64 = 0.3, Judged "the fit of a rendered ellipse takes half of that for a lens";
+        /// Minimum share of the residual that a sharpening must explain.
+        EXPLAINED: f64 = 0.3, Judged "random cameras of `photos` with and without a sharpening: without it errors of those grow, error over sigma from 0.98 to 1.02";
         /// Largest share of clipped samples at a distance from the rim.
         CLIPPED_RIM: f64 = 0.1, Judged "the mean of the others is then low by little";
         /// Amount from which on a fit is none of a sharpening.
-        STRONGEST: f64 = 6.0, Judged "three times the strongest of `photos`; more is a fit gone astray";
-        /// Sigma of the mean in which what is sharpened is searched.
+        STRONGEST: f64 = 6.0, Judged "three times the strongest of `photos`; without it a camera's 1.66 is told as 11.6, and error over sigma of three webcam grids grows by up to an eighth";
+        /// Sigma of the Gaussian mean with which a sharpened picture is smoothed for the search.
         SOFT: f64 = 1.6, Measured "the middle of the range in which the webcam pictures of dots in `photos` show all of them";
-        /// The same where the sharpening is undone.
+        /// The same after the sharpening is undone.
         RESTORED: f64 = 0.7, Judged "what is left of the picture's own blocks and ringing";
-        /// Least noise of such a picture, in levels of the one it was made of.
-        ROUNDED: f64 = 0.3, Derived "rounding leaves 0.29";
-        /// Amount of a sharpening from which rims say that there may be more than the rows do.
-        BY_RIMS: f64 = 0.3, Judged "twice what a fit takes for a lens";
     }
 }
 
@@ -135,11 +117,11 @@ pub(crate) mod blur {
     table! {
         /// What is assumed of a target before its blur is known, sigma in pixels.
         SHARP: f64 = 0.9, Judged "a lens in focus";
-        /// Blur from which on the surround begins further out.
-        BLURRED: f64 = 1.2, Judged "the foot of the edge then reaches into the first ring";
-        /// Blur from which on a target's edges are refined before they are judged.
+        /// Blur above which the annulus begins further out.
+        BLURRED: f64 = 1.2, Judged "the foot of the edge then reaches into the first ring; with 1.3, centres of saturated targets of 10 px are a tenth worse";
+        /// Blur above which a target's edges are refined before they are tested.
         SOFT: f64 = 1.3, Judged "the steepest place scatters by more than edges may differ";
-        /// Blur from which on its edges are searched between means.
+        /// Blur above which its edges are searched between means of several samples.
         DEFOCUSED: f64 = 2.0, Judged "no place of an edge is the steepest within the noise";
     }
 }
@@ -149,16 +131,16 @@ pub(crate) mod place {
     use super::Source;
 
     table! {
-        /// Distance of two measurements of the same disc in the smaller semi-minor axis, and ratio of their semi-major axes.
+        /// Two measurements are of the same disc up to this distance, in the smaller semi-minor axis, and ratio of their semi-major axes.
         SAME: [f64; 2] = [0.25, 1.4], Judged "two discs that touch are two radii apart";
-        /// Least and largest standard deviation of the window of a lump, in those of the picture's blur.
+        /// Minimum and maximum standard deviation of the window of adaptive moments, in units of the picture's blur.
         NARROWEST: f64 = 0.7, Judged "a point spread function is no narrower, noise is";
-        WIDEST: f64 = 5.0, Judged "what is wider has a rim, and is measured by it";
-        /// Level above the background from which a pixel is weighted, as a share of the contrast and in noise.
+        WIDEST: f64 = 5.0, Judged "a wider target has a rim and is measured by it";
+        /// Minimum level above the background for a weight above 0, as a share of the contrast and in noise.
         WEIGHTED: [f64; 2] = [0.15, 3.0], Judged "noise of the background stays out";
-        /// Square of a gradient from which it is weighted, in squares of the noise.
+        /// Minimum squared gradient for a weight above 0, in squares of the noise.
         STEEP: f64 = 9.0, Derived "noise alone has a mean of 1: chance passes once in 8000 pixels";
-        /// Distance at which a click beside a target still means it.
+        /// Maximum distance of a click from the target that it selects.
         BESIDE: f64 = 4.0, Judged "a hand on the mouse";
     }
 }
@@ -168,19 +150,18 @@ pub(crate) mod blob {
     use super::Source;
 
     table! {
-        /// Departure of a blob's area from that of the ellipse of its moments, of few rows and of more.
-        FILL_OF_FEW: f64 = 0.45, Judged "up to one step of two or three is unknown";
+        /// Maximum relative deviation of a blob's area from that of its ellipse of moments, for more than three rows.
         FILL: f64 = 0.12, Derived "a triangle departs by 0.17, a bowl by more; a square, 0.05, goes by its ends";
-        /// Area, in units of that of the runs, from which on an ellipse through their ends follows a bar instead.
+        /// Area of an ellipse through the ends of the runs, in units of the area of the runs, above which the blob is a bar instead.
         UNSEEN: f64 = 2.5, Judged "bars of `detect`";
         /// Rms of ends from their ellipse: pixels, and share of its semi-minor axis.
         RMS: [f64; 2] = [0.3, 0.05], Judged "ends are good to a tenth of a pixel; letters and corners of `detect` leave more";
         /// Ratio of the wide parts of two touching targets to the neck between them.
         NECK: f32 = 1.5, Judged "touching discs of `detect`";
-        /// Least ratio of the lengths of runs that belong together, and what their ends may be apart: pixels, and share of the shorter.
+        /// Minimum ratio of the lengths of runs that belong together, and maximum distance of their ends: pixels, and share of the shorter.
         LINKED: f32 = 0.35, Judged "clutter and discs of `detect`";
         APART: [f32; 2] = [4.0, 0.25], Judged "as above";
-        /// What a spot may take of a run, and how far its middle may lie from that of the run above, as shares of the run.
+        /// Maximum length of a spot in a run, and maximum distance of its middle from that of the run above, as shares of the run.
         SPOT: [f32; 2] = [0.3, 0.15], Judged "the spot of Metashape's dots, 0.09, grows by blur and sharpening: `prints`";
     }
 }
@@ -190,18 +171,19 @@ pub(crate) mod partial {
     use super::Source;
 
     table! {
-        /// Share of the ends in one window.
-        WINDOW: f64 = 0.5, Judged "what is covered or joined on one side leaves more of the border in one piece";
+        /// Share of the ends that one window has.
+        WINDOW: f64 = 0.5, Judged "an occluder or a touching object on one side leaves more of the border in one piece";
         /// Least share of the ends that follows the ellipse.
         FOLLOWING: f64 = 0.55, Judged "a cover of a fifth of the diameter on one side hides all ends but these";
-        /// Least share of an ellipse's width and of its height that the blob reaches over.
+        /// Minimum share of an ellipse's width and of its height that the blob reaches over.
         SPANNED: f64 = 0.35, Derived "a cable of a fifth of the diameter across the middle leaves halves of 0.4, less room for their ends";
-        /// Distance in which ends follow an ellipse: pixels, and share of its semi-minor axis; and that of the worst window's.
+        /// Maximum distance of ends that follow an ellipse: pixels, and share of its semi-minor axis; and distance above which a window is
+        /// given up, in the same units.
         GOOD: [f64; 2] = [0.3, 0.03], Judged "as the ends of a whole blob, less room for its shape";
         HOPELESS: f64 = 3.0, Judged "of windows with a piece of the cover one is nearer";
-        /// Distance by which ends differ in any case.
+        /// Tolerance of ends in any case, pixels.
         STEPS: f64 = 0.15, Judged "rows are whole";
-        /// Smallest minor axis, and fewest runs: what is smaller has too few ends.
+        /// Minimum minor axis, also of targets reported as occluded, and minimum number of runs: smaller blobs have too few ends.
         SMALLEST: f64 = 7.0, Judged "smaller ones have too few ends";
         RUNS: usize = 4, Derived "half of their ends are four, with the next ones enough for five unknowns";
     }
@@ -212,7 +194,7 @@ pub(crate) mod bulge {
     use super::Source;
 
     table! {
-        /// Least width of a target's rows over that of the others.
+        /// Minimum width of a target's rows over that of the others.
         WIDER: f32 = 1.4, Judged "a cable is at most half as wide as what it crosses; less are bends and steps of a bar";
         /// Shares of the rows up to which they may be the narrow ones, one after the other.
         NARROW: [f64; 3] = [0.1, 0.3, 0.5], Judged "a cable that ends at the target's rim, one as long as the target beyond it, and longer";
@@ -224,60 +206,54 @@ pub(crate) mod halves {
     use super::Source;
 
     table! {
-        /// Least area of the smaller part in that of the larger: with less the larger shows the ellipse by itself.
-        SMALLER: f64 = 0.15, Judged "a cable next to the rim";
-        /// Shortest part, in the smallest minor axis.
-        SHORTEST: f64 = 0.8, Judged "the longer side of a half is the diameter";
-        /// Least length of the shorter part in that of the longer.
+        /// Minimum ratio of the lengths of the two parts.
         SHORTER: f64 = 0.4, Judged "both lie along the cable; the smaller one is short where it is small";
         /// Largest distance between the parts, in the size of the larger.
         GAP: f64 = 0.3, Derived "a cable of a fifth of the diameter, and its blur";
-        /// Least share of the hull that both fill.
+        /// Minimum share of the hull that both fill.
         AREA: f64 = 0.6, Derived "such a cable takes a quarter of a circle, and blur a little more";
-        /// Largest share of their bounding box that both fill.
-        FULLEST: f64 = 0.8, Derived "an ellipse fills π/4 of its own";
-        /// By how much the hull's area may differ from that of its ellipse, in addition to a quarter of the rows.
+        /// Maximum relative difference between the areas of the hull and of its ellipse, in addition to a quarter of the rows.
         FILL: f64 = 0.06, Judged "corners every second row";
-        /// Least share of the hull's corners that follows the ellipse.
+        /// Minimum share of the hull's corners that follows the ellipse.
         FOLLOWING: f64 = 0.8, Judged "the parts' own corners are rounded off";
     }
 }
 
 /// The first look at a blob: sixteen directions, two pixels each.
-pub(crate) mod look {
+pub(crate) mod quick_test {
     use super::Source;
 
     table! {
         /// Distance of the outer pixel from the rim.
         OUTSIDE: f64 = 2.5, Judged "beyond the blur of a sharp photograph";
-        /// Directions in which the step may be missing: of small blobs and of others.
-        MISSING_SMALL: u32 = 3, Measured "none of 2600 targets in thirteen pictures goes, a quarter of the clutter of `detect` does";
+        /// Maximum number of directions without a step, for small blobs and for others.
+        MISSING_SMALL: u32 = 3, Measured "none of 2600 targets in thirteen pictures is rejected, a quarter of the clutter of `detect` is";
         MISSING: u32 = 7, Derived "0.42 of the outline may be missing";
         /// Minor axis of small blobs in units of the smallest that may have a gap.
         SMALL: f64 = 0.8, Judged "the search knows sizes to a fifth";
-        /// Directions that may lead out of the shape: at first, after the outline is known, and in the same look with a small gap.
+        /// Maximum number of directions in which the shape is open: at first, when the outline is known, and then with a small gap.
         OPEN: u32 = 5, Judged "bowls and joined strokes of `detect`";
         OPEN_MEASURED: u32 = 3, Judged "as above, with the outline through edges";
         MISSING_WHOLE: u32 = 2, Derived "a tenth of sixteen directions";
-        /// Directions in which step and inside may fail where a sector is covered.
-        COVERED: u32 = 8, Judged "covers of a fifth of the diameter, `photos -- conditions`";
+        /// Directions in which step and inside may fail where a sector is occluded.
+        OCCLUDED: u32 = 8, Judged "covers of a fifth of the diameter, `photos -- conditions`";
         /// Mean step of the better twelve directions, in noise.
         FAINT: f64 = 3.3, Derived "eight sigmas of a mean of twelve differences, of which the choice of the better ones takes some";
         /// Step from which noise makes no holes in it, and places in which it may then be missing.
         CLEAR: f64 = 6.0, Derived "of such a step noise leaves less than 0.4 once in 190 directions";
         GAPS: u32 = 2, Derived "a cable runs across a target's outline twice";
-        /// Share of the typical step that is a step.
+        /// Minimum step, as a share of the typical step.
         STEP: f32 = 0.4, Judged "light, blur and noise change a step by less";
-        /// Difference from the inside's level, as a share of the typical step, that is the inside going on.
+        /// Maximum difference from the level of the inside, as a share of the typical step, in an open direction.
         OWN: f32 = 0.3, Judged "less than the least step";
-        /// Directions in which the inside may be darker than elsewhere, and as many in which it may be brighter: of a blob, and of one of which a sector
-        /// is covered.
-        STRANGE: [usize; 2] = [2, 3], Measured "a cable as bright as paper across the middle: of 600 discs behind cables 6 more are found or told as hidden";
+        /// Maximum number of directions in which the inside may be darker, and of those in which it may be brighter: for a blob, and for one
+        /// with an occluded sector.
+        STRANGE: [usize; 2] = [2, 3], Measured "a cable as bright as paper across the middle: of 600 discs behind cables 6 more are found or reported as occluded";
         /// Spread of the inside, as a share of the typical step.
         EVEN: f32 = 0.8, Judged "a spot or a shadow takes less";
-        /// Difference from both levels, as a share of the contrast, of what lies in front of a target.
-        FOREIGN: f64 = 0.3, Judged "what differs less is taken for the target's own blur";
-        /// Share of the contrast from the target's level at which a stroke comes back.
+        /// Minimum difference of an occluder from both levels, as a share of the contrast.
+        FOREIGN: f64 = 0.3, Judged "a smaller difference may be the target's blur";
+        /// Maximum difference from the level of the inside, as a share of the contrast, at which that level occurs again outside.
         COMES_BACK: f64 = 0.5, Derived "half-way";
     }
 }
@@ -287,49 +263,48 @@ pub(crate) mod outline {
     use super::Source;
 
     table! {
-        /// Smallest distance that a point may always have, and largest one in robust standard deviations.
+        /// Tolerance of an edge point in any case, pixels, and in robust standard deviations.
         TOLERANCE: f64 = 0.25, Judged "blur, printing and pixels move edges by that without noise";
         SIGMAS: f64 = 3.0, Derived "of 48 rays chance takes one in every eighth outline";
-        /// Blur s moves the steepest place of a rim of curvature κ inwards by about κ s² / 2: so much, in square pixels, is allowed for at
-        /// the tips of a slender ellipse.
+        /// Blur s moves the steepest place of a rim of curvature κ inwards by about κ s² / 2. Allowance for s² / 2 at the tips of a slender
+        /// ellipse, square pixels.
         BENT: f64 = 0.4, Derived "half the square of a blur of 0.9 px";
-        /// Largest share of the outline that may be missing in one piece without further demands; many small gaps count as so much more.
+        /// Maximum share of the outline missing in one piece without further tests, also of that missing outside an occluded sector; the total
+        /// missing share times the second value counts as one piece.
         SMALL_GAP: f64 = 0.1, Judged "counters and bowls of `detect` have more";
         SCATTERED: f64 = 0.6, Judged "as above";
-        /// Largest share of the outline that may be missing at all, and what a first fit may have more.
+        /// Maximum share of the outline that may be missing, and addition to it for a first fit.
         HIDDEN: f64 = 0.42, Judged "most of the outline is seen";
         HIDDEN_FIRST: f64 = 0.1, Judged "the second round decides";
-        /// Smallest minor axis of a target with a gap, and that of a first outline with a gap that may become small.
+        /// Minimum minor axis of a target with a gap; factor for a first outline; factor of the allowed gap of a first outline.
         GAP_MINOR: f64 = 12.0, Judged "the letters of `detect` that have an ellipse with a gap are smaller";
         GAP_MINOR_FIRST: f64 = 0.9, Judged "the first outline is good to a tenth";
         GAP_FIRST: f64 = 2.0, Judged "as above";
-        /// Contrast of a target with a gap, in noise.
-        GAP_CONTRAST: f64 = 20.0, Derived "edges are then good to a seventh of a pixel";
-        /// What noise n does to the steepest place of an edge of contrast C, in units of n / C, at least.
+        /// Scatter of the steepest place of an edge of contrast C by noise n, in units of n / C, at least.
         SPREAD: f64 = 2.8, Judged "1.7 for a sharp edge, and room for other profiles";
-        /// The same of a blur: times its cube, at most times itself; and of a fitted profile, times its root.
+        /// The same for a blur: times its cube, at most times itself; for a fitted profile: times its square root.
         SPREAD_CUBE: f64 = 1.2, Derived "sqrt(6) n over twice the second derivative of the fall, 0.8 C / s³, samples drawn from four pixels";
         SPREAD_WIDE: f64 = 4.0, Derived "the fall between means of s samples";
         SPREAD_FITTED: f64 = 1.9, Derived "sqrt(2 sqrt(π))";
-        /// Departure of a good outline without noise, as a share of its semi-minor axis.
+        /// Deviation of the edges from a good outline without noise, as a share of its semi-minor axis.
         SHAPE: f64 = 0.02, Judged "printing, compression and the picture's grid add up to 1 % of the diameter";
-        /// Scatter of the edges over what is expected, of an outline that is judged alone; of a first one with its floor in pixels.
-        SCATTER: f64 = 1.1, Judged "the expectation has room of its own";
+        /// Maximum scatter of the edges over the expected one; the same for a first outline, and the minimum expected scatter of that, pixels.
+        SCATTER: f64 = 1.1, Judged "the expected scatter has a margin already";
         SCATTER_FIRST: f64 = 1.3, Judged "as above, before the blur is known";
         SCATTER_FLOOR: f64 = 0.05, Judged "a first fit has made one correction";
-        /// What a first outline of a small semi-minor axis may scatter more, and that axis.
+        /// Addition to the scatter of a first outline of a small target, pixels, and maximum semi-minor axis of small targets.
         SCATTER_SMALL: f64 = 0.2, Measured "0.36 px in one of 2500 isolated circles of 5 px";
         SMALL: f64 = 5.0, Judged "the search knows the height of so few rows to two pixels only";
-        /// Rms of edges from an outline beyond which it is none: pixels, and share of its semi-minor axis.
-        RMS: [f64; 2] = [0.3, 0.03], Judged "an outline that no expectation saves";
-        /// Rays in a row without a fitting edge that are something in front of the target.
-        COVERED: usize = 3, Judged "one edge out of place is chance, two in a row are seldom";
-        /// Distance, in pixels, from which a single edge that does not fit is something in front as well; and the scatter of the others up to
-        /// which it is no chance.
+        /// Maximum rms distance of edges from an outline: pixels, and share of its semi-minor axis.
+        RMS: [f64; 2] = [0.3, 0.03], Judged "above it no expected scatter justifies the outline";
+        /// Number of consecutive rays without a fitting edge that indicate an occluder.
+        OCCLUDED: usize = 3, Judged "one edge out of place is chance, two in a row are seldom";
+        /// Distance, in pixels, above which a single edge that does not fit indicates an occluder as well, and maximum scatter of the others for
+        /// that.
         GONE: f64 = 0.5, Measured "error over sigma of 380 discs behind thin cables 1.20, with half as much again 1.28";
         EVEN: f64 = 0.1, Measured "with more, coarse JPEG and drawings lose edges that are their own, `photos -- conditions`";
-        /// Change of an outline up to which its edges are not looked for again.
-        HEAD_ON: f64 = 0.4, Judged "rays meet the rim as head on as before";
+        /// Maximum change of an outline with which its edges are not searched again.
+        HEAD_ON: f64 = 0.4, Judged "rays still meet the rim nearly at right angles";
     }
 }
 
@@ -338,26 +313,27 @@ pub(crate) mod levels {
     use super::Source;
 
     table! {
-        /// Contrast of a target: in noise around it, where that is no more than so many times the picture's and levels.
+        /// Minimum contrast of a target in units of the noise around it; that noise is limited to a multiple of the picture's plus grey levels.
         CONTRAST: f64 = 4.0, Judged "fainter discs have no outline";
         DISTURBED: [f64; 2] = [4.0, 2.0], Judged "more is texture and no noise";
-        /// Contrast times minor axis, in noise and pixels: what is smaller or fainter has too few pixels that differ from a letter's inside.
+        /// Contrast in noise times minor axis in pixels, below which a target has too few pixels to differ from the counter of a letter.
         SHAPELY: f64 = 100.0, Judged "letters of `detect`";
-        /// Contrast, in noise, below which noise hides what tells a letter's inside from an ellipse.
-        FAINT: f64 = 25.0, Judged "as above";
-        /// Most of sixteen directions in which a faint target may lie inside of a thin ring.
-        STROKE: u32 = 11, Judged "the ring of a code comes back in fewer, the stroke of a letter in nearly all";
-        /// Largest share of the inside that may differ from the rest, by a third of the contrast.
-        UNEVEN: f64 = 0.25, Judged "what hides more is reported as hidden";
-        /// Largest share of the outline that may be missing without anything in front of it.
-        UNEXPLAINED: f64 = 0.2, Measured "0.1 costs 0.07 of the hidden targets of `photos -- conditions`";
-        /// Noise that is believed of a surround, in units of the picture's; and at least, in the distance of two levels.
-        BELIEVED: f64 = 1.1, Judged "where the surround is not plane, what the whole picture has is believed";
+        /// Contrast, in noise, below which noise hides the difference between the counter or the bowl of a letter and an ellipse with or without
+        /// a gap.
+        FAINT: f64 = 25.0, Judged "as above; edges are then good to a tenth of a pixel";
+        /// Maximum number of the sixteen directions in which a faint target may be surrounded by a thin ring.
+        STROKE: u32 = 11, Judged "the ring of a code surrounds it in fewer, the stroke of a letter in nearly all";
+        /// Maximum share of the inside that differs from the rest by more than a third of the contrast; maximum share of the outline missing
+        /// without an occluder.
+        UNEVEN: f64 = 0.25, Judged "a target with more is reported as occluded; with 0.2 of the inside, one in fourteen of the targets behind cables of `photos -- conditions` is lost";
+        /// Maximum noise estimated in an annulus, in units of the picture's noise; minimum noise of any picture, in units of the distance between two levels.
+        BELIEVED: f64 = 1.1, Judged "if the annulus is not plane, the noise of the whole picture is used";
         ROUNDING: f64 = 0.3, Derived "rounding leaves 0.29";
-        /// Least part of the rays that a ring of the surround has, in tenths.
-        RING_TENTHS: f64 = 6.0, Judged "the plane stands on more than one side of the target";
-        /// Least noise by which a ring is judged; rms and mean, in that noise, with which it still belongs to the plane.
-        RING_NOISE: f64 = 0.5, Derived "rounding leaves 0.29, and a plane is no background to a fraction of a level";
+        /// Minimum number of rays of a ring of the annulus, in tenths of all rays.
+        RING_TENTHS: f64 = 6.0, Judged "the plane needs more than one side of the target";
+        /// Minimum noise with which a ring of the annulus or a pixel of the fit is tested.
+        QUIET: f64 = 0.5, Derived "rounding leaves 0.29, and a plane is no background to a fraction of a level";
+        /// Maximum rms and mean, in that noise, of a ring that belongs to the plane.
         RING: [f64; 2] = [1.7, 0.9], Judged "the foot of a neighbour's edge shows in the mean first";
     }
 }
@@ -367,11 +343,11 @@ pub(crate) mod light {
     use super::Source;
 
     table! {
-        /// Standard deviation of the light's change from pixel to pixel, as a share of it.
+        /// Standard deviation of the change of light from pixel to pixel, as a share of the light.
         STEEPEST: f64 = 0.02, Judged "a tenth across a target of 5 px: more is a shadow's edge";
-        /// Least semi-minor axis in pixels, and redundancy, of the part of a disc that shows the light inside.
-        CORE: [f64; 2] = [1.5, 6.0], Judged "fewer pixels know less of it than the background";
-        /// Variance of a slope, in square grey levels a pixel, that no picture is free of.
+        /// Minimum semi-minor axis in pixels, and redundancy, of the part of a disc that shows the light inside.
+        CORE: [f64; 2] = [1.5, 6.0], Judged "fewer pixels determine it less well than the background";
+        /// Minimum variance of a slope, (grey levels per pixel)².
         FLOOR: f64 = 1e-8, Judged "a thousandth of a level across a target: drawings without noise have no variance";
     }
 }
@@ -381,84 +357,79 @@ pub(crate) mod fit {
     use super::Source;
 
     table! {
-        /// Least rise of the level beside a target that is something standing there: share of the contrast, and rms of the fit.
+        /// Minimum rise of the level beside a target that indicates a neighbouring object: share of the contrast, and rms of the fit.
         RISE: [f64; 2] = [0.1, 5.0], Derived "the range of six bilinear samples of noise exceeds five deviations on one of 48 rays of every hundredth target";
-        /// Residual beyond which a pixel is not the target's: in noise, least noise, and share of the contrast for a lens, a drawing,
-        /// an edge sharper than any rendered.
-        OUTLIER: f64 = 5.0, Derived "of a thousand pixels chance takes none";
-        QUIET: f64 = 0.5, Judged "rounding and a little more";
+        /// Residual above which a pixel does not belong to the target: in noise, and share of the contrast for a lens and for a drawing.
+        OUTLIER: f64 = 5.0, Derived "chance exceeds it in none of a thousand pixels";
         LENS: f64 = 0.06, Judged "a lens does that all around";
         STAIRS: f64 = 0.7, Judged "a pixel of stairs is wrong by up to a half";
-        SHARP: f64 = 0.1, Derived "it leaves up to 0.4 of the least blur, 0.2 px, in a pixel";
-        /// Departure of a rim from its ellipse that is its own shape, in the rms of the edges from it.
-        DEPARTS: f64 = 3.0, Derived "a wave departs by 1.4 of its rms, and noise of an edge seldom by 3; without it discs out of round by 0.5 % of 60 px are told as hidden at low noise";
-        /// The same of the flat parts: in noise, least noise, share of the contrast inside.
-        FLAT: [f64; 3] = [4.0, 0.6, 0.05], Derived "chance takes 6 of 100,000 flat pixels";
-        /// Largest share of the rim's pixels that may be left out.
+        /// The same of an edge sharper than any that is rendered.
+        SHARP: f64 = 0.1, Derived "it leaves up to 0.4 of the least blur, 0.2 px, in a pixel; without it one in 300 of the screenshot of `photos -- conditions` is lost";
+        /// Deviation of a rim from its ellipse that may be its true shape, in units of the rms of the edges.
+        DEPARTS: f64 = 3.0, Derived "a wave departs by 1.4 of its rms, and noise of an edge seldom by 3; without it discs out of round by 0.5 % of 60 px are reported as occluded at low noise";
+        /// The same for pixels off the rim: in noise, minimum noise, share of the contrast inside.
+        FLAT: [f64; 3] = [4.0, 0.6, 0.05], Derived "chance exceeds it in 6 of 100,000 flat pixels";
+        /// Maximum share of the rim's pixels that may be excluded.
         DISTURBED: f64 = 0.12, Judged "a small gap and a neighbour";
-        /// Rms of the residuals: in noise, and share of the contrast of photos and of drawings.
+        /// Maximum rms of the residuals, also of a fit in the sensor's samples: in noise, and share of the contrast in photos and in drawings.
         RMS_NOISE: f64 = 1.5, Judged "noise that grows with the light";
         RMS_PROFILE: f64 = 0.1, Judged "a lens over the whole band";
         RMS_STAIRS: f64 = 0.25, Judged "the same for stairs";
-        /// Part of the residuals that noise does not explain and that differs around the rim, as a share of the contrast: of a minor
-        /// axis of 10 px, its growth a pixel, and at most.
+        /// Maximum residual that noise does not explain and that varies around the rim, as a share of the contrast: for a minor axis of 10 px,
+        /// its increase per pixel, and at most, which is also that of drawings.
         MISFIT: [f64; 3] = [0.045, 0.006, 0.12], Judged "letters against discs of `detect`; large targets show what print and lens do";
         MISFIT_MINOR: f64 = 10.0, Judged "as above";
-        /// The same of faint targets is smaller: contrast in noise from which on it is whole, and least share.
-        MISFIT_FAINT: f64 = 40.0, Judged "on faint targets noise hides both";
-        MISFIT_LEAST: f64 = 0.4, Judged "as above";
-        /// The same of a drawing, and of a target with a gap.
-        MISFIT_STAIRS: f64 = 0.2, Judged "drawn discs";
-        MISFIT_GAP: f64 = 0.024, Judged "the bowl of a letter is an ellipse with a gap too: the rest must be as good as noise allows";
-        /// Sum of the squares of scatter and misfit, each over its limit.
-        TOGETHER: f64 = 1.15, Judged "the limits are those of each alone";
-        /// Largest way of the centre: pixels, and share of the semi-minor axis.
-        MOVED: [f64; 2] = [1.0, 0.1], Judged "edges are better than that";
-        /// Largest share of a whole outline that chance may hide; gap inside of a ring, in pixels, that is worth a narrower ground.
+        /// Contrast, in noise, below which this limit is reduced in proportion.
+        MISFIT_FAINT: f64 = 40.0, Judged "on faint targets noise hides both; without the reduction, the pictures without targets of `photos` have one false target";
+        /// The same of a drawing.
+        MISFIT_STAIRS: f64 = 0.2, Judged "drawn discs; with 0.12 one in 200 of the binary drawing of `photos -- conditions` is lost";
+        /// The same for a target with a gap.
+        MISFIT_GAP: f64 = 0.024, Judged "the bowl of a letter is an ellipse with a gap too: the rest must be as good as noise allows; with 0.045, the error over sigma of occluded targets increases by a fifth";
+        /// Maximum sum of the squares of scatter and misfit, each over its limit.
+        TOGETHER: f64 = 1.15, Judged "each limit is for one of them alone; without it, the pictures without targets of `photos` have eight false ones";
+        /// Maximum missing share of an outline that counts as complete; minimum gap before a ring, in pixels, for a narrower annulus.
         WHOLE: f64 = 0.05, Judged "two of 48 rays";
-        NARROW: f64 = 1.0, Judged "one pixel of ground";
-        /// Depth, in blurs, up to which a cap beyond a cable is left out.
-        SHALLOW: f64 = 1.0, Judged "less of it has no edge of its own, and more leaves too little of small discs: `photos -- conditions`";
-        /// Standard error of a centre, in pixels, of which too much is hidden.
-        UNTOLD: f64 = 0.25, Judged "a hand points as well";
-        /// Fewest pixels, unknowns being ten.
+        NARROW: f64 = 1.0, Judged "one pixel of background";
+        /// Maximum depth, in blurs, of a cap beyond a cable that is excluded.
+        SHALLOW: f64 = 1.0, Judged "a shallower cap has no edge of its own, and excluding more leaves too little of small discs: `photos -- conditions`";
+        /// Standard error of a centre, in pixels, above which the target counts as mostly occluded.
+        UNTOLD: f64 = 0.25, Judged "measuring by hand is as accurate";
+        /// Minimum number of pixels for the ten unknowns.
         PIXELS: usize = 24, Derived "14 of redundancy";
-        /// Contrast of what is clipped, in units of what the scale shows: at most, from which on nothing of the rim is left, and at least then.
+        /// Contrast of saturated targets, also in the sensor's samples, over the range of the picture: maximum; that from which nothing of the rim
+        /// is left; and the minimum then.
         OVEREXPOSED: f64 = 16.0, Judged "the centre hardly depends on it: the image of an ellipse is symmetric about it";
-        STEP_LEFT: f64 = 0.97, Judged "at the largest contrast the rim is a step, whose sigma would promise too much";
+        STEP_LEFT: f64 = 0.97, Judged "at the largest contrast the rim is a step, whose sigma would be too small";
         STEP_LEAST: f64 = 2.0, Judged "half of the profile shows";
-        /// Share of the scale from which a bright target is taken to be clipped, and share of clipped pixels that explains why one has no fit.
-        CLIPPED: f64 = 0.9, Judged "contrast and blur begin to stand for each other";
+        /// Level, as a share of the scale, above which a bright target counts as saturated; share of saturated pixels that explains a failed
+        /// fit.
+        CLIPPED: f64 = 0.9, Judged "contrast and blur become strongly correlated";
         MOSTLY_CLIPPED: f64 = 0.5, Judged "half of its pixels";
-        /// Blur of a lens in focus and its spread over lenses; and the standard deviation, in units of what is seen of it, of a contrast of
-        /// which nothing is known. Neither is correlated with the centre.
+        /// Observed value and standard deviation of the blur of a lens in focus; standard deviation of an unknown contrast, in units of its
+        /// visible part. Neither is correlated with the centre.
         IN_FOCUS: [f64; 2] = [0.8, 0.25], Judged "lenses in focus, with the pixel";
         LOOSE: f64 = 100.0, Derived "no information";
-        /// Variance of what the fit leaves, over that of the noise, from which the rest is looked at; correlation of neighbours from which
-        /// it is no noise (of light, say); and pixels that then move the centre as one.
+        /// Variance of the residuals over that of the noise, above which they are examined further; correlation of neighbours above which they
+        /// are not noise (but light, for example); and number of pixels whose residuals then count as one.
         UNEXPLAINED: f64 = 1.7, Judged "beyond the noise of light";
-        /// Residuals, in variances of the noise, from which the rim may have a shape of its own.
-        SHAPED: f64 = 1.1, Derived "a shape that leaves less moves a centre by less than its sigma; to look for it costs a tenth of the time";
+        /// Variance of the residuals over that of the noise, above which the rim may differ from an ellipse.
+        SHAPED: f64 = 1.1, Derived "a smaller deviation moves a centre by less than its sigma; the search costs a tenth of the time";
         SHARED: f64 = 0.15, Judged "noise of single pixels has less";
         MOVED_TOGETHER: f64 = 3.0, Measured "error over sigma of cameras moved by 2 to 6 px, `photos -- conditions`";
     }
 }
 
-/// Targets of which something in front covers a part.
-pub(crate) mod covered {
+/// Partly occluded targets.
+pub(crate) mod occlusion {
     use super::Source;
 
     table! {
         /// Sectors tried: shares of the outline.
         SECTORS: [f64; 3] = [0.15, 0.25, 0.35], Derived "a cover of a fifth of the diameter takes 0.295 of a circle's";
-        /// Scatter of edges below which one sector is as good as another.
-        EVEN: f64 = 0.02, Judged "less tells no sector from another";
-        /// Share of the other edges that may not fit either.
-        OTHERS: f64 = 0.1, Judged "as the small gap";
-        /// Distance from the outline up to which an edge is the target's own.
-        FITTING: f64 = 0.2, Judged "hidden targets of `photos -- conditions`";
-        /// Smallest minor axis of what is shown as hidden.
-        SMALLEST: f64 = 7.0, Judged "as that of a partial ellipse";
+        /// Scatter of edges below which all sectors are equivalent.
+        EVEN: f64 = 0.02, Judged "with less, sectors cannot be distinguished";
+        /// Maximum distance of an edge of the target from the outline.
+        FITTING: f64 = 0.2, Judged "occluded targets of `photos -- conditions`";
         /// Scatter, relative to what is expected of a good outline, of one that is shown as hidden.
         CLEAR: f64 = 0.7, Judged "no false target in conditions, pictures without targets and `detect`";
     }
@@ -469,74 +440,74 @@ pub(crate) mod rims {
     use super::Source;
 
     table! {
-        /// Distance from a hole's centre, in its semi-major axes, up to which the outer rim is looked for.
-        FARTHEST: f64 = 12.0, Judged "the spot in the centre of Metashape's dots is an eleventh; without a limit every dot would be looked around to the end of the picture";
-        /// Share of the hole's contrast that comes back beyond the disc, and the same in noise.
-        RETURNS: f64 = 0.4, Judged "what stands around a donut may be a little more like it than its hole is; as the least step of a look";
+        /// Maximum distance from a hole's centre, in its semi-major axes, at which the outer rim is searched.
+        FARTHEST: f64 = 12.0, Judged "the spot in the centre of Metashape's dots is an eleventh; without a limit the search around every dot would extend to the border of the picture";
+        /// Minimum step at the outer rim, as a share of the hole's contrast and in noise.
+        RETURNS: f64 = 0.4, Judged "the background may be closer to the level of the donut than its hole is; as the minimum step of the quick test";
         CLEAR: f64 = 6.0, Derived "chance passes nowhere on 48 rays of a hundred places";
         /// Share of the rays on which it does, and how far these places may be from their median radius.
         SEEN: f64 = 0.8, Judged "a gap of a tenth, and a neighbour";
-        ROUGH: f64 = 0.3, Judged "a hole aside by a tenth moves the rim by less";
-        /// Distance of the two centres, in the outer semi-minor axis, up to which they are rims of one donut.
+        ROUGH: f64 = 0.3, Judged "a hole off centre by a tenth changes it by less";
+        /// Maximum distance of the two centres, in the outer semi-minor axis, of the rims of one donut.
         CONCENTRIC: f64 = 0.15, Judged "more is a disc with a mark on it";
-        /// Square of the distance of the centres, in their standard errors, from which they differ.
+        /// Squared distance of the centres, in their standard errors, above which they differ significantly.
         OFF: f64 = 13.8, Derived "99.9 % of χ² of two degrees of freedom";
     }
 }
 
 /// Targets of a photo by what the others have in common.
-pub(crate) mod alike {
+pub(crate) mod small_targets {
     use super::Source;
 
     table! {
-        /// Fewest targets that tell of the others, and their least minor axis in blurs.
-        ENOUGH: usize = 6, Judged "fewer tell no spread";
+        /// Minimum number of known targets, and their minimum minor axis in blurs.
+        ENOUGH: usize = 6, Judged "fewer give no spread";
         PLAIN_MINOR: f64 = 5.0, Derived "the middle of such a disc shows 0.96 of its contrast";
-        /// Blur, in pixels, from which small discs of a picture that is neither sharpened nor compressed are looked for too.
+        /// Blur, in pixels, above which small discs are also searched for in a picture that is neither sharpened nor compressed.
         SWALLOWING: f64 = 1.3, Derived "a disc of 5 px then shows less than 0.85 of its contrast, and no flat part";
-        /// Residuals of a picture's targets, in noise of its flat ground: from where on their neighbours may share them, and from where on
-        /// they hide targets.
+        /// Rms of the residuals of a picture's targets, in noise of its flat background: above which residuals of neighbours may be
+        /// correlated, and above which they make the search miss targets.
         NOISY_RIMS: [f64; 2] = [1.3, 2.0], Judged "in-camera denoising leaves noise at edges: without the first, errors are 2.5 sigmas; without the second, `edge_noise.png` of the cases loses 22 of 35 dots";
-        /// Largest ratio of contrasts of a photo's targets.
+        /// Maximum ratio of the contrasts of a photo's targets.
         CONTRASTS: f64 = 2.5, Judged "light falls off, and so does what blur leaves of the smallest; 40 random cameras of `photos`";
-        /// Share of its contrast that a disc shows in its middle below which blur has swallowed it, and the ratio of contrasts then.
+        /// Share of its contrast visible in the middle of a disc, below which blur reaches the middle, and maximum ratio of contrasts then.
         SEEN: f64 = 0.9, Derived "no pixel shows the contrast itself";
-        CONTRASTS_SWALLOWED: f64 = 1.75, Measured "of 1900 targets found so in random cameras and webcam grids of `photos` three true ones are fainter, and one that is none";
-        /// Least standard deviations of blur and of contrast among targets, as shares.
+        CONTRASTS_SWALLOWED: f64 = 1.75, Measured "of 1900 targets found so in random cameras and webcam grids of `photos` three true ones and one false one are fainter";
+        /// Minimum standard deviations of blur and of contrast among targets, as shares.
         BLURS: f64 = 0.06, Judged "as above";
         SHADES: f64 = 0.15, Judged "as above";
-        /// Largest residuals, in units of those of the known targets, part of the contrast that they may differ by besides, and the
-        /// uneven part in the same units.
+        /// Maximum residuals, in units of those of the known targets; addition to them as a share of the contrast; and maximum part that varies
+        /// around the rim, in the same units.
         AS_GOOD: f64 = 1.5, Judged "as above";
         PROFILE: f64 = 0.04, Judged "as above";
         UNEVEN: f64 = 0.6, Judged "as above";
-        /// Residuals, in units of these largest ones, from which a fit is given up; and where the contrast is not that of the known
-        /// targets but what the fit itself promises.
-        HOPELESS: f64 = 2.0, Judged "what the first correction promises is that near to what the last one leaves";
-        HOPELESS_OWN: f64 = 3.0, Measured "of 879 targets found so in a hundred pictures of `photos` none promised more than 2.7 on its way";
-        /// Contrast that blur leaves in the middle, in units of the residuals; and of the whole disc, times the root of its pixels.
-        PLAIN: f64 = 4.0, Judged "chance has such shapes below; pictures without targets of `photos`";
+        /// Residuals, in units of that maximum, above which a fit is given up; and the same if the contrast is estimated by the fit itself.
+        HOPELESS: f64 = 2.0, Judged "the residuals predicted by the first correction are that close to the final ones";
+        HOPELESS_OWN: f64 = 3.0, Measured "of 879 targets found so in a hundred pictures of `photos` none had a prediction above 2.7";
+        /// Minimum contrast that blur leaves in the middle, in units of the residuals; and that of the whole disc times the square root of its
+        /// number of pixels.
+        PLAIN: f64 = 4.0, Judged "smaller ones occur by chance; pictures without targets of `photos`";
         CLEAR: f64 = 16.0, Judged "as above";
-        /// Share of the light expected at a place that is enough to fit it.
-        LIGHT: f64 = 0.5, Judged "the level around is rough";
-        /// Share of its contrast that a quarter of the directions around a disc still show, and an eighth of them, from which it is joined
-        /// to something.
+        /// Minimum share of the expected contrast at a position for a fit.
+        LIGHT: f64 = 0.5, Judged "the level of the background is uncertain";
+        /// Share of its contrast, exceeded in a quarter and in an eighth of the directions around a disc, above which it touches another object.
         JOINED: [f64; 2] = [0.6, 0.9], Measured "of 1925 targets found so in `photos 100` and `conditions` at most 0.52 and 0.76; of 2400 other shapes of det1.camera.jpg seven in ten have more";
-        /// Least semi-minor axis, in blurs, of a disc that is measured on the gap before a ring alone; and how far from the ring, in blurs,
-        /// that gap ends.
+        /// Minimum semi-minor axis, in blurs, of a disc whose background is only the gap before a ring; and distance of the end of that gap
+        /// from the ring, in blurs.
         GAP: f64 = 3.0, Measured "error over sigma of 1000 small coded dots of sharpened and compressed photos: 1.0 to 1.5 above, 2.7 and more below";
         RING_APART: f64 = 1.2, Derived "blur leaves there an eighth of the ring's contrast, and less further in";
-        /// Largest one, in blurs, that is looked for in a ring alone.
-        LARGEST: f64 = 8.0, Measured "of 1700 small coded dots found so all but a handful, whose rings are read as none, are smaller";
-        /// Most of the contrast that the gap may lack in some direction.
+        /// Maximum semi-minor axis, in blurs, of discs that are searched for only inside a ring.
+        LARGEST: f64 = 8.0, Measured "of 1700 small coded dots found so all but a handful, whose rings are not read as codes, are smaller";
+        /// Maximum share of the contrast that the gap may lack in some direction.
         GAP_LACKS: f64 = 0.5, Derived "half-way";
         /// Largest share of pixels that neighbours may disturb.
         DISTURBED: f64 = 0.25, Judged "neighbours at a pitch of 2.5 radii, `photos -- conditions`; 0.45 shows a false target more in two of the webcam grids";
-        /// Departure of the blur: in standard deviations, and as a share.
+        /// Maximum deviation of the blur from that of the known targets: in standard deviations, and as a share.
         BLUR: [f64; 2] = [3.0, 0.1], Judged "chance, and focus over the photo";
-        /// Way of the centre from what stands out: pixels, and share of the semi-minor axis; while it is fitted twice that.
+        /// Maximum distance of the fitted centre from that of the blob: pixels, and share of the semi-minor axis; during the iterations twice
+        /// that.
         MOVED: [f64; 2] = [1.0, 0.3], Judged "40 random cameras of `photos`";
-        /// Part of the known contrasts, from the faintest, that a softened picture's finds may be fainter than.
+        /// Targets found in a smoothed picture must not be fainter than the 1/n quantile of the known contrasts over [`CONTRASTS`].
         FAINTEST: usize = 10, Measured "counters of five pale letters in det1.camera.jpg";
     }
 }
@@ -551,18 +522,14 @@ pub(crate) mod sites {
         /// Deviations from the model, and share of the contrast, beyond which a site is not the target's.
         FAR: f64 = 4.5, Derived "of a thousand sites chance takes none";
         LENS: f64 = 0.05, Judged "as that of pictures";
-        /// Largest share of sites that may be left out.
+        /// Maximum share of sites that may be excluded.
         DISTURBED: f64 = 0.3, Judged "neighbours and dirt count here, beyond the rim too";
-        /// Contrast of what is clipped, in units of what the scale shows.
-        OVEREXPOSED: f64 = 16.0, Judged "as that of pictures";
-        /// Largest residuals that a model of two levels explains: noise and share of the contrast.
-        EXPLAINED: [f64; 2] = [1.5, 0.1], Judged "as those of pictures";
-        /// Deviations of the noise below the white level from which a site counts.
+        /// Minimum distance below the white level of a site that is used, in standard deviations of the noise.
         WHITE: f64 = 3.0, Derived "of 700 such sites noise clips one";
-        /// Noise by which a hot site is brighter than all its neighbours, and how many times as bright.
+        /// A hot site is brighter than all its neighbours by so many standard deviations of the noise, and so many times as bright.
         HOT: f64 = 8.0, Derived "chance: none of 10^14 sites";
         HOT_TIMES: f64 = 2.0, Judged "no light does that from one site to the next";
-        /// Standard error of the readout's variance, as a share of it, up to which it is told.
+        /// Maximum relative standard error of the read-out variance with which it is reported.
         TOLD: f64 = 0.5, Derived "its root is then good to a quarter";
     }
 }
@@ -572,11 +539,15 @@ pub(crate) mod colours {
     use super::Source;
 
     table! {
-        /// Fewest targets that show a lateral chromatic aberration of four unknowns.
+        /// Minimum number of targets that show a lateral chromatic aberration of four unknowns.
         FEWEST: usize = 6, Judged "twelve equations for four unknowns";
-        /// Residuals in standard errors beyond which a target takes no part.
+        /// Residual in standard errors above which a target is not used.
         FAR: f64 = 4.0, Derived "chance: 6 in 100,000";
-        /// Difference that no lens makes: another target.
+        /// Difference in pixels above which two measurements are of different targets.
         BEYOND: f64 = 6.0, Judged "lenses leave up to three pixels in a corner";
+        /// Standard errors beyond which a shift is significant.
+        SIGNIFICANT: f64 = 3.0, Derived "chance: 3 in 1,000";
+        /// Pixels below which a shift needs no attention, significant or not.
+        NEGLIGIBLE_PX: f64 = 0.02, Judged "standard errors of good targets";
     }
 }

@@ -16,7 +16,7 @@ use super::edges::lit::Light;
 use super::edges::surround::Surround;
 use super::ellipse::outline::Outline;
 use super::normal::normal_distribution;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// A centre with its covariance (uu, uv, vv).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,13 +28,13 @@ pub(crate) struct Centre {
 
 /// Sums of a weighted centroid; places are relative to the outline's centre.
 #[derive(Default)]
-struct Sums {
+struct CentroidSums {
     w: f64,
     wx: f64,
     wy: f64,
 }
 
-impl Sums {
+impl CentroidSums {
     fn add(&mut self, w: f64, x: f64, y: f64) {
         self.w += w;
         self.wx += w * x;
@@ -49,7 +49,7 @@ impl Sums {
 
 /// Centroid of the grey levels above the background plane plus a threshold, within `margin` pixels of the outline.
 pub(crate) fn intensity<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     surround: &Surround,
     light: &Light,
@@ -69,7 +69,7 @@ pub(crate) fn intensity<T: Sample>(
             }
         });
     };
-    let mut sums = Sums::default();
+    let mut sums = CentroidSums::default();
     weights(&mut |w, x, y| sums.add(w, x, y));
     let [u, v] = sums.centre()?;
     let mut covariance = [0.0; 3];
@@ -112,7 +112,7 @@ fn variance_above(level: f64, threshold: f64, noise: f64) -> f64 {
 
 /// Centroid of the squared gradient (central differences), within `margin` pixels of the outline.
 pub(crate) fn gradient<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     surround: &Surround,
     light: &Light,
@@ -131,7 +131,7 @@ pub(crate) fn gradient<T: Sample>(
         let square = gx * gx + gy * gy;
         if square > STEEP * surround.noise.powi(2) { [gx, gy] } else { [0.0, 0.0] }
     };
-    let mut sums = Sums::default();
+    let mut sums = CentroidSums::default();
     pixels(plane, outline, margin, &mut |column, row, x, y| {
         let [gx, gy] = slope(column, row);
         sums.add(gx * gx + gy * gy, x, y);
@@ -184,7 +184,12 @@ fn add_outer(covariance: &mut [f64; 3], du: f64, dv: f64, variance: f64) {
 }
 
 /// Visits the pixels within `margin` pixels of the outline: column, row, place relative to the outline's centre.
-fn pixels<T: Sample>(plane: &Plane<T>, outline: &Outline, margin: f64, visit: &mut dyn FnMut(usize, usize, f64, f64)) {
+fn pixels<T: Sample>(
+    plane: &SampleView<T>,
+    outline: &Outline,
+    margin: f64,
+    visit: &mut dyn FnMut(usize, usize, f64, f64),
+) {
     let grown = outline.grown(margin);
     let half = grown.half_box().1;
     for row in (outline.v - half).max(0.0) as usize..((outline.v + half + 1.0).max(0.0) as usize).min(plane.height) {

@@ -1,6 +1,6 @@
 //! Reading ring codes.
 //!
-//! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear ground outside, all
+//! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear background outside, all
 //! blurred as the dot's own rim is. [`polar`] samples it, [`bands`] is the model of a ray, [`radial`] separates gap, ring and
 //! outside in each direction, [`sectors`] divides the ring into sectors, [`discs`] draws discs in their places,
 //! [`judge`](mod@judge) decides what that is.
@@ -19,20 +19,20 @@ use std::rc::Rc;
 
 use super::outline::Outline;
 use crate::detection::{CodeNote, Codes, Polarity, Target};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 use crate::ring_code::{Design, Family};
 use bands::Bands;
 use judge::{Divisions, Tone, judge};
-use polar::{Frame, Polar, Rays};
+use polar::{Polar, RingFrame, RingRays};
 use radial::Radial;
 
 pub(super) use parts::{drop_parts, drop_sectors, keep_ringed, settle_grounds};
 pub(super) use radial::may_be_in_ring;
 pub(super) use vote::{read_all, read_in};
 
-/// What was read around a dot.
+/// Result of reading the code around a dot.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Reading {
+pub(super) enum CodeReading {
     /// No ring there.
     Plain,
     /// A ring that is safely one code.
@@ -57,9 +57,14 @@ pub(super) fn outline_of(target: &Target) -> Outline {
 }
 
 /// Reads the ring around a target, whose edges have this blur in the picture, as a code of each of the families.
-pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, families: &[Family]) -> Vec<Reading> {
+pub(super) fn read<T: Sample>(
+    plane: &SampleView<T>,
+    target: &Target,
+    blur: f64,
+    families: &[Family],
+) -> Vec<CodeReading> {
     if !radial::may_have_ring(plane, target) {
-        return vec![Reading::Plain; families.len()];
+        return vec![CodeReading::Plain; families.len()];
     }
     // whether the levels are light or a camera's tone curve has bent them: each family is judged by what explains it best
     let bent = light::of_screen(plane, target, blur);
@@ -72,7 +77,7 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
         as_is.straightest(design).into_iter().chain(bent)
     };
     let readings = read_tones(families, |design| both(design).collect());
-    if bent.is_none() || readings.iter().any(|reading| matches!(reading, Reading::Code { .. })) {
+    if bent.is_none() || readings.iter().any(|reading| matches!(reading, CodeReading::Code { .. })) {
         return readings;
     }
     // a sharpened rim has another place and another width than the curve alone explains: both as they are in light
@@ -84,23 +89,23 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
 
 /// The same in a picture whose levels are a known curve of light, of which `light` is the inverse.
 pub(super) fn read_curve<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     target: &Target,
     families: &[Family],
     light: impl Fn(f64) -> f64,
-) -> Vec<Reading> {
+) -> Vec<CodeReading> {
     let blur = target.quality.edge_width;
     let found =
         light::of(plane, target, blur, light).filter(|(part, target)| radial::may_have_ring(&part.plane(), target));
-    let Some((part, target)) = found else { return vec![Reading::Plain; families.len()] };
+    let Some((part, target)) = found else { return vec![CodeReading::Plain; families.len()] };
     let size = plane.width.max(plane.height);
     let plane = part.plane();
     let around = Around::of(&plane, &target, blur, size);
     read_tones(families, |design| around.straightest(design).into_iter().collect())
 }
 
-fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec<Reading> {
-    let mut readings = vec![Reading::Plain; families.len()];
+fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec<CodeReading> {
+    let mut readings = vec![CodeReading::Plain; families.len()];
     for design in [Design::Schneider, Design::Metashape] {
         if families.iter().all(|family| family.design() != design) {
             continue;
@@ -117,14 +122,14 @@ fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec
 
 /// Shift of the ring's middle, in radii, above which the perspective of a target matters.
 const SHIFT: f64 = 0.1;
-/// Least side of a camera's picture in pixels: a smaller one is cut out of one.
+/// Minimum side of a camera's picture in pixels: a smaller one is cut out of one.
 const CAMERA: usize = 640;
 
-/// What lies around a target in one picture, for every design.
+/// Levels around a target in one picture, for every code design.
 struct Around<'a, T> {
-    plane: &'a Plane<'a, T>,
+    plane: &'a SampleView<'a, T>,
     target: &'a Target,
-    rays: Rc<Rays>,
+    rays: Rc<RingRays>,
     /// Its samples seen straight on.
     straight: Polar,
     /// Larger side of the whole picture.
@@ -132,9 +137,9 @@ struct Around<'a, T> {
 }
 
 impl<'a, T: Sample> Around<'a, T> {
-    fn of(plane: &'a Plane<'a, T>, target: &'a Target, blur: f64, size: usize) -> Self {
-        let rays = Rc::new(Rays::of(outline_of(target), blur));
-        let straight = Polar::sample(plane, &Frame::new(rays.outline, 0.0), &rays);
+    fn of(plane: &'a SampleView<'a, T>, target: &'a Target, blur: f64, size: usize) -> Self {
+        let rays = Rc::new(RingRays::of(outline_of(target), blur));
+        let straight = Polar::sample(plane, &RingFrame::new(rays.outline, 0.0), &rays);
         Self { plane, target, rays, straight, size }
     }
 
@@ -150,13 +155,13 @@ impl<'a, T: Sample> Around<'a, T> {
         let largest = a * sine / (0.6 * self.size.max(CAMERA) as f64);
         let bands = Rc::new(Bands::of(rays.clone(), design));
         let of = |boost: f64| {
-            let frame = Frame::new(outline, boost);
+            let frame = RingFrame::new(outline, boost);
             let sampled = (boost != 0.0).then(|| Polar::sample(plane, &frame, rays));
             let polar = sampled.as_ref().unwrap_or(&self.straight);
             Radial::of(plane, target, &frame, polar, &bands).map(|radial| (boost, radial))
         };
         let looked_around =
-            |(boost, radial): (f64, Radial)| radial.with_neighbours(plane, target, &Frame::new(outline, boost));
+            |(boost, radial): (f64, Radial)| radial.with_neighbours(plane, target, &RingFrame::new(outline, boost));
         let [inner, outer] = design.ring();
         let moves = inner * outer - 1.0;
         if largest * moves < SHIFT {

@@ -6,15 +6,18 @@
 //!
 //! with x, y from the middle of the picture, R the radius of its corners and ρ = sqrt(x² + y²) / R: a shift, the difference of scale l and that of
 //! the cubic distortion c, both in pixels at the corner (Luhmann, Hastedt, Tecklenburg 2006, ISPRS Archives, volume 36, part 5). Weights are the
-//! inverse variances of the differences; targets beyond four standard errors take no part.
+//! inverse variances of the differences; targets beyond four standard errors are not used.
 
 use nalgebra::{Matrix4, Vector4};
 
-use super::acceptance::colours::{BEYOND, FAR, FEWEST};
+use super::acceptance::colours::{BEYOND, FAR, FEWEST, NEGLIGIBLE_PX, SIGNIFICANT};
 use super::{detect_shot, measure_in_shot, sites};
 use crate::detection::{Channel, Colour, ColourApart, ColoursApart, DetectOptions, Lateral, Shift, Target};
 use crate::error::Result;
 use crate::sensor::Shot;
+
+/// Shares of the corner's radius at which the shift is compared with its standard error: both parts may cancel at one of them.
+const RADII: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// Measures the targets of a photo in green, red and blue. `shot` gives the photo for a channel; that of a sensor is asked for once.
 ///
@@ -107,7 +110,7 @@ fn lateral(shifts: &[Shift], [cu, cv]: [f64; 2], corner: f64) -> Option<Lateral>
             continue;
         }
         let sum = Vector4::new(0.0, 0.0, 1.0, 1.0);
-        return Some(Lateral {
+        let mut lateral = Lateral {
             shift_u: unknowns[0],
             shift_v: unknowns[1],
             linear: unknowns[2],
@@ -117,8 +120,14 @@ fn lateral(shifts: &[Shift], [cu, cv]: [f64; 2], corner: f64) -> Option<Lateral>
             rms: (squares / (2 * count) as f64).sqrt(),
             sigma0,
             targets: count,
+            significant: false,
             covariance: upper(&(inverse * sigma0.max(1.0).powi(2))),
-        });
+        };
+        lateral.significant = RADII
+            .iter()
+            .map(|share| lateral.at(*share))
+            .any(|[shift, sigma]| shift.abs() > SIGNIFICANT * sigma && shift.abs() > NEGLIGIBLE_PX);
+        return Some(lateral);
     }
     None
 }
@@ -160,9 +169,32 @@ mod tests {
         assert_eq!(found.targets, 119);
         assert!((found.at_corner - 0.4).abs() < 4.0 * found.sigma_at_corner, "{found:?}");
         assert!((0.85..1.15).contains(&found.sigma0), "{found:?}");
+        let [corner, sigma] = found.at(1.0);
+        assert!((corner - found.at_corner).abs() < 1e-12 && (sigma / found.sigma_at_corner - 1.0).abs() < 1e-9);
+        let [half, sigma] = found.at(0.5);
+        assert!((half - (0.35 - 0.0375)).abs() < 4.0 * sigma && sigma > 0.0, "{half} {sigma}");
+        assert_eq!(found.at(0.0), [0.0, 0.0]);
+        assert!(found.significant && exact.significant);
     }
 
-    /// Estimates scatter as their covariance says: the mean of xᵀ Q⁻¹ x over many of them is its four degrees of freedom.
+    /// A shift is significant where both parts cancel at the corner, and is not where there is none or only noise.
+    #[test]
+    fn only_what_exceeds_its_standard_errors_is_significant() {
+        let with = |linear: f64, cubic: f64, noise: f64| {
+            let mut all = shifts(noise);
+            for shift in &mut all {
+                let [x, y] = [(shift.u - 540.0) / 680.0, (shift.v - 360.0) / 680.0];
+                let grown = linear - 0.7 + (cubic + 0.3) * (x * x + y * y);
+                (shift.du, shift.dv) = (shift.du + grown * x, shift.dv + grown * y);
+            }
+            lateral(&all, [540.0, 360.0], 680.0).expect("a lens").significant
+        };
+        assert!(with(0.5, -0.5, 0.01));
+        assert!(!with(0.0, 0.0, 0.02) && !with(0.5, -0.5, 2.0));
+        assert!(!with(0.01, 0.0, 0.001));
+    }
+
+    /// Estimates scatter according to their covariance: the mean of xᵀ Q⁻¹ x over many of them is its four degrees of freedom.
     #[test]
     fn the_covariance_is_the_scatter() {
         let clean = shifts(0.0);

@@ -3,10 +3,10 @@
 
 pub(crate) mod blur;
 pub(crate) mod edge;
+pub(crate) mod ellipse_fit;
 pub(crate) mod lit;
-pub(crate) mod look;
 pub(crate) mod propagation;
 pub(crate) mod quality;
+pub(crate) mod quick_test;
 pub(crate) mod sectors;
 pub(crate) mod surround;
-pub(crate) mod through;

@@ -4,28 +4,28 @@ pub(super) mod confirm;
 
 use super::acceptance::fit as limits;
 use super::acceptance::levels::{BELIEVED, ROUNDING};
-use super::acceptance::look::OUTSIDE;
 use super::acceptance::outline::GAP_MINOR;
+use super::acceptance::quick_test::OUTSIDE;
 use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
-use super::edges::edge::{self, Edges, Profile};
+use super::edges::edge::{self, EdgeProfile, Edges};
+use super::edges::ellipse_fit::{self, EllipseFit, Start};
 use super::edges::lit::Light;
-use super::edges::look;
 use super::edges::propagation;
 use super::edges::quality;
+use super::edges::quick_test;
 use super::edges::surround::{self, Surround};
-use super::edges::through::{self, EllipseFit, Start};
 use super::ellipse::outline::Outline;
 use super::median;
-use super::picture::noise::Levels;
-use super::rendered::band::{Prior, Region};
-use super::rendered::colour::Colour;
+use super::picture::noise::GreyStatistics;
+use super::rendered::band::{PixelRegion, Prior};
 use super::rendered::fit::{self, Workspace};
 use super::rendered::neighbours::Neighbours;
+use super::rendered::noise_autocorrelation::NoiseProducts;
 use super::rendered::strip::Strip;
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Expected corrections, in pixels, that end the approach and the fit.
 const ROUGH: f64 = 2e-3;
@@ -36,7 +36,7 @@ fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
 }
 
-/// What runs across a target that is large enough for that: of small letters only the bowl would be left.
+/// A strip across a target that is large enough: of small letters only the bowl would remain.
 fn strip(outline: &Outline, kept: &[bool], blur: f64) -> Option<Strip> {
     let large = 2.0 * outline.semi_axes().1 >= GAP_MINOR;
     if large { Strip::of(outline, kept, limits::SHALLOW * blur) } else { None }
@@ -44,21 +44,21 @@ fn strip(outline: &Outline, kept: &[bool], blur: f64) -> Option<Strip> {
 
 /// What measuring needs besides the outline; scratch is reused.
 pub(crate) struct Measure<'a, T> {
-    pub plane: Plane<'a, T>,
-    pub levels: Levels,
+    pub plane: SampleView<'a, T>,
+    pub levels: GreyStatistics,
     pub options: &'a DetectOptions,
     pub edges: Edges,
     pub work: Workspace,
-    /// What is known of blur and contrast, if anything.
+    /// Prior values of blur and contrast, if any.
     prior: Option<Prior>,
-    /// What neighbouring pixels of the target measured last share.
-    pub colour: Option<Colour>,
+    /// Noise autocorrelation of the target measured last.
+    pub colour: Option<NoiseProducts>,
     /// Rms of what the last fit of a rendered ellipse left, less its mean profile across the rim; 0 without one.
     pub uneven: f64,
 }
 
 /// A target as found from its edges, before the final measurement.
-pub(crate) struct Found {
+pub(crate) struct PreliminaryTarget {
     pub ellipse: EllipseFit,
     pub surround: Surround,
     pub kept: Vec<bool>,
@@ -71,13 +71,13 @@ pub(crate) struct Found {
     pub refined: bool,
 }
 
-impl Found {
+impl PreliminaryTarget {
     /// Contrast, positive where it has the sign of its polarity.
     fn signed(&self) -> f64 {
         if self.bright { self.surround.contrast } else { -self.surround.contrast }
     }
 
-    /// What noise does to its edges, for a blur.
+    /// Scatter of its edges by noise, for a blur.
     fn spread(&self, blur: f64) -> f64 {
         if self.refined { quality::fitted(blur) } else { quality::steepest(blur) }
     }
@@ -85,7 +85,7 @@ impl Found {
 
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
-    pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
+    pub fn new(plane: SampleView<'a, T>, levels: GreyStatistics, options: &'a DetectOptions) -> Self {
         Self {
             plane,
             levels,
@@ -115,7 +115,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let strength = self.strength();
         let mut blur = SHARP;
         for _ in 0..4 {
-            let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(OUTSIDE));
+            let contrast = quick_test::contrast(&self.plane, outline, (2.0 * blur).max(OUTSIDE));
             blur = blur::of(strength, if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
                 break;
@@ -131,20 +131,20 @@ impl<'a, T: Sample> Measure<'a, T> {
         median::of_sizes(kept.map(|(strength, _)| *strength), &mut scratch.sizes)
     }
 
-    /// The whole surround of an outline of about this blur.
+    /// The whole annulus of an outline of about this blur.
     fn surround(&self, outline: &Outline, blur: f64, kept: &[bool]) -> Result<Surround, Reason> {
         let blur = if blur > BLURRED { blur } else { SHARP };
         surround::measure(&self.plane, outline, blur, kept, u32::MAX).ok_or(Reason::NoFit)
     }
 
     /// Measurement of a found target by one method.
-    pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
+    pub fn finish(&mut self, found: &PreliminaryTarget, method: Method) -> Result<Target, Reason> {
         let measured = self.measured(found, method);
-        // without a fit, what is clipped in most of its pixels has failed for that
+        // without a fit, what is saturated in most of its pixels has failed for that
         if measured != Err(Reason::NoFit) || self.saturated(&found.ellipse.outline) <= limits::MOSTLY_CLIPPED {
             return measured;
         }
-        // only the foot of the profile is left, where contrast and blur stand for each other: the blur of a lens in focus decides
+        // only the foot of the profile is left, where contrast and blur cannot be separated: the blur of a lens in focus decides
         let contrast = found.surround.contrast;
         self.prior = Some(Prior {
             blur: limits::IN_FOCUS,
@@ -158,7 +158,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         again.map_err(|_| Reason::Saturated)
     }
 
-    fn measured(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
+    fn measured(&mut self, found: &PreliminaryTarget, method: Method) -> Result<Target, Reason> {
         let mut outline = found.ellipse.outline;
         let mut surround = match method {
             Method::LeastSquares => found.surround,
@@ -227,20 +227,25 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// How the light changes across a disc.
-    fn light(&self, found: &Found, surround: &Surround) -> Light {
+    fn light(&self, found: &PreliminaryTarget, surround: &Surround) -> Light {
         let whole = found.kept.iter().all(|kept| *kept);
         Light::of(&self.plane, &found.ellipse.outline, surround, found.blur, whole, self.levels.saturation)
     }
 
     /// The ellipse through edges refined with the target's own levels and blur, and the covariance of its centre: the
     /// propagated noise, and as much more as the edges scatter more than it explains.
-    fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
+    fn refined_ellipse(
+        &mut self,
+        found: &PreliminaryTarget,
+        surround: &Surround,
+    ) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
         let light = self.light(found, surround);
-        let profile = Profile { light: light.slope, ..blur::profile(&outline, surround, found.strength, found.blur) };
+        let profile =
+            EdgeProfile { light: light.slope, ..blur::profile(&outline, surround, found.strength, found.blur) };
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
-        let fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        let fit = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
         let cofactors = fit.normal.cholesky().ok_or(Reason::NoFit)?.inverse();
         let influence = propagation::influence(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);
@@ -249,7 +254,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         Ok((fit, std::array::from_fn(|i| variance * influence.noise[i] + slope[i])))
     }
 
-    /// Noise around a target; where the surround is not plane, what the whole picture has is believed.
+    /// Noise around a target; where the annulus is not plane, the noise of the whole picture is used.
     pub(super) fn noise(&self, surround: &Surround) -> f64 {
         surround.noise.clamp(self.levels.noise, BELIEVED * self.levels.noise).max(ROUNDING * self.levels.quantum)
     }
@@ -258,15 +263,15 @@ impl<'a, T: Sample> Measure<'a, T> {
     ///
     /// Which pixels count depends on the outline around which they are chosen. An approach from the edges finds
     /// the outline; the fit takes its pixels around that outline, so that the way to it leaves no trace in the result.
-    fn least_squares(&mut self, found: &Found) -> Result<(fit::Fit, Surround), Reason> {
+    fn least_squares(&mut self, found: &PreliminaryTarget) -> Result<(fit::Fit, Surround), Reason> {
         let measured = self.fitted(found, f64::INFINITY, true);
         let Some(outer) = self.crowded(found, &measured) else { return measured };
         let ways = [(outer, true), (f64::INFINITY, false), (outer, false)];
         ways.into_iter().find_map(|(outer, multiplies)| self.fitted(found, outer, multiplies).ok()).map_or(measured, Ok)
     }
 
-    /// Distance from the rim, in pixels, up to which a whole outline without a fit has ground of its own, where others stand near by.
-    fn crowded(&self, found: &Found, measured: &Result<(fit::Fit, Surround), Reason>) -> Option<f64> {
+    /// Distance from the rim, in pixels, up to which a whole outline without a fit has background of its own, where others stand near by.
+    fn crowded(&self, found: &PreliminaryTarget, measured: &Result<(fit::Fit, Surround), Reason>) -> Option<f64> {
         let failed = matches!(measured, Err(Reason::NoFit | Reason::NotAnEllipse));
         if !failed || found.ellipse.occluded > limits::WHOLE {
             return None;
@@ -278,11 +283,16 @@ impl<'a, T: Sample> Measure<'a, T> {
         (outer > limits::NARROW && outer < half_band(found.blur).min(b)).then_some(outer)
     }
 
-    /// The fit with ground up to `outer` pixels from the rim, in light that multiplies or adds.
-    fn fitted(&mut self, found: &Found, outer: f64, multiplies: bool) -> Result<(fit::Fit, Surround), Reason> {
+    /// The fit with background up to `outer` pixels from the rim, in light that multiplies or adds.
+    fn fitted(
+        &mut self,
+        found: &PreliminaryTarget,
+        outer: f64,
+        multiplies: bool,
+    ) -> Result<(fit::Fit, Surround), Reason> {
         let surround = Surround { outer: outer.min(found.surround.outer), ..found.surround };
         let whole = found.kept.iter().all(|kept| *kept);
-        let region = Region {
+        let region = PixelRegion {
             outline: found.ellipse.outline,
             half_band: half_band(found.blur),
             surround: &surround,
@@ -306,14 +316,15 @@ impl<'a, T: Sample> Measure<'a, T> {
         (surround.contrast, surround.outer) = (lit.contrast, outer.min(surround.outer));
         let strip = strip(&outline, kept, blur);
         let light = lit.light();
-        let last = Region { outline, half_band: half_band(blur), surround: &surround, light, kept, strip, ..region };
+        let last =
+            PixelRegion { outline, half_band: half_band(blur), surround: &surround, light, kept, strip, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;
         if !self.explains(found, &fit) && gap > limits::NARROW && found.ellipse.occluded < limits::WHOLE {
-            // a code ring, perhaps, as near as the rim is to the centre: only the gap is the target's ground
+            // a code ring, perhaps, as near as the rim is to the centre: only the gap is the target's background
             let narrow = Surround { outer: gap.min(surround.outer), ..surround };
-            let last = Region { surround: &narrow, ..last };
+            let last = PixelRegion { surround: &narrow, ..last };
             fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         }
         let [uu, _, vv] = fit.covariance;
@@ -321,9 +332,8 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::Occluded);
         }
         let (a, b) = fit.outline.semi_axes();
-        let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };
-        if moved > limits::MOVED[0] + limits::MOVED[1] * b || contrast <= 0.0 {
+        if contrast <= 0.0 {
             return Err(Reason::NoFit);
         }
         if b < self.options.min_axis_ratio * a {
@@ -336,7 +346,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Whether two grey levels and a blur describe the rim, whatever the lens adds.
-    fn explains(&self, found: &Found, fit: &fit::Fit) -> bool {
+    fn explains(&self, found: &PreliminaryTarget, fit: &fit::Fit) -> bool {
         let (noise, contrast) = (self.noise(&found.surround), fit.contrast.abs());
         let profile = if self.levels.stairs { limits::RMS_STAIRS } else { limits::RMS_PROFILE };
         fit.disturbed <= limits::DISTURBED

@@ -1,29 +1,29 @@
 //! One pass over a picture: candidates of the search, their measurement, and occlusions.
 
-use super::acceptance::alike::{ENOUGH, NOISY_RIMS};
-use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
-use super::alike::{self, Alike, Wanted};
+use super::acceptance::size::BLOB_SMALL;
+use super::acceptance::small_targets::{ENOUGH, NOISY_RIMS};
 use super::code;
-use super::covered::Covered;
 use super::measure::Measure;
+use super::occlusion::Occlusion;
 use super::outline::Outline;
-use super::picture::noise::Levels;
-use super::rendered::colour::{Colour, Correlation};
+use super::picture::noise::GreyStatistics;
+use super::rendered::noise_autocorrelation::{NoiseAutocorrelation, NoiseProducts};
 use super::search::blob::NoBlob;
-use super::search::census::Census;
+use super::search::tested_outlines::TestedOutlines;
 use super::search::{self, Blobs, Candidate, Hidden};
+use super::small_targets::{self, CommonProperties, ExpectedShape};
 use crate::detection::{DetectOptions, Detection, Polarity, Reason, Target};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
-/// What one pass over a picture found.
+/// Result of one pass over a picture.
 #[derive(Default)]
 pub(super) struct Pass {
     pub detection: Detection,
-    /// Targets that may be the ground of a code's ring, to be settled when codes are read.
+    /// Targets that may be the background of a code's ring, to be settled when codes are read.
     pub grounds: Vec<Target>,
-    /// What neighbouring pixels share, of the targets at these places.
-    pub colours: Vec<([f64; 2], Colour)>,
-    /// Outlines that were no targets by themselves.
+    /// Noise autocorrelation of the targets at these positions.
+    pub colours: Vec<([f64; 2], NoiseProducts)>,
+    /// Outlines that were rejected when tested alone.
     pub doubtful: Vec<Outline>,
     /// Whether its pixels were taken to share their noise.
     pub coloured: bool,
@@ -40,7 +40,9 @@ impl Pass {
     /// Puts the correlation of neighbouring pixels into the covariances: sum of the factors by which they grow, and their number. What
     /// few targets show of it may be chance, and promises nothing. A target that shows nothing of it itself has the median of the factors.
     pub fn correlate(&mut self) -> [f64; 2] {
-        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return [0.0; 2] };
+        let Some(correlation) = NoiseAutocorrelation::of(self.colours.iter().map(|(_, colour)| colour)) else {
+            return [0.0; 2];
+        };
         let least = if self.colours.len() < ENOUGH { 1.0 } else { 0.0 };
         let own = |target: &Target| {
             let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
@@ -61,22 +63,22 @@ impl Pass {
 
 /// One pass: what is found beyond the targets that are known.
 pub(super) fn pass<T: Sample>(
-    plane: Plane<T>,
-    levels: Levels,
+    plane: SampleView<T>,
+    levels: GreyStatistics,
     options: &DetectOptions,
     coloured: bool,
     soft: Option<Soft>,
     known: &[Target],
 ) -> Pass {
     let blobs = search::search(&plane, &levels, options, Hidden::Clear);
-    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
-    known.iter().for_each(|target| census.know(target));
-    census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
+    let mut tested = TestedOutlines::new(plane.width, plane.height, code::have_spots(options.codes));
+    known.iter().for_each(|target| tested.know(target));
+    tested.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
     for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
-        census.add(Reason::TooSmall, *too_small);
-        census.add(Reason::TooLarge, *too_large);
+        tested.add(Reason::TooSmall, *too_small);
+        tested.add(Reason::TooLarge, *too_large);
         for no in shapeless.iter().chain(unlike) {
-            census.count(no);
+            tested.count(no);
         }
     }
     let mut measure = Measure::new(plane, levels, options);
@@ -84,9 +86,9 @@ pub(super) fn pass<T: Sample>(
     measure.work.mean = soft.map_or(0.0, |soft| soft.blur);
     let (mut colours, mut uneven) = (Vec::new(), Vec::new());
     let mut doubtful: Vec<Outline> = Vec::new();
-    let mut covered: Vec<Candidate> = Vec::new();
+    let mut occluded: Vec<Candidate> = Vec::new();
     for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
-        if !census.is_new(candidate) {
+        if !tested.is_new(candidate) {
             continue;
         }
         let Candidate { outline, bright } = candidate;
@@ -94,69 +96,69 @@ pub(super) fn pass<T: Sample>(
             Ok(target) => {
                 colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
                 uneven.push(measure.uneven);
-                census.accept(target, *bright);
+                tested.accept(target, *bright);
             }
             Err(reason) => {
                 doubtful.push(*outline);
                 if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit | Reason::Occluded) {
-                    covered.push(*candidate);
+                    occluded.push(*candidate);
                 }
-                census.reject(*outline, *bright, reason);
+                tested.reject(*outline, *bright, reason);
             }
         }
     }
-    covered.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
+    occluded.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
     // what is known is certain, what was found beside it is judged by it later
     let clear = match soft {
         Some(soft) if known.len() >= ENOUGH => are_clear(&levels, known, soft),
-        _ => are_clear(&levels, &census.targets, Soft { scale: 1.0, blur: 0.0 }),
+        _ => are_clear(&levels, &tested.targets, Soft { scale: 1.0, blur: 0.0 }),
     };
     if !clear {
         let faint = search::search(&plane, &levels, options, Hidden::Faint);
-        covered.extend(faint.into_iter().flat_map(|blobs| blobs.partial));
+        occluded.extend(faint.into_iter().flat_map(|blobs| blobs.partial));
     }
-    for Candidate { outline, bright } in &covered {
-        if !census.is_free(outline) {
+    for Candidate { outline, bright } in &occluded {
+        if !tested.is_free(outline) {
             continue;
         }
-        match measure.uncovered(outline, *bright) {
+        match measure.occluded_target(outline, *bright) {
             Ok(found) => match measure.finish(&found, options.method) {
                 Ok(target) => {
                     colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-                    census.reconsider(target, *bright);
+                    tested.reconsider(target, *bright);
                 }
-                Err(_) => census.hide(&found.ellipse.outline),
+                Err(_) => tested.hide(&found.ellipse.outline),
             },
-            Err(Covered::Hidden(outline)) => census.hide(&outline),
-            Err(Covered::No) => {}
+            Err(Occlusion::NotMeasurable(outline)) => tested.hide(&outline),
+            Err(Occlusion::NoTarget) => {}
         }
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
-    // a processed picture is looked at softened, too, where such rims hide nothing
-    let rim_noise = if measure.work.coloured { 1.0 } else { alike::rim_noise(uneven, &measure.levels) };
+    // a processed picture is examined softened, too, where such rims hide nothing
+    let rim_noise = if measure.work.coloured { 1.0 } else { small_targets::rim_noise(uneven, &measure.levels) };
     let [shared, hiding] = NOISY_RIMS;
     if rim_noise > shared {
         measure.work.coloured = true;
-        colours = measured_again(&mut measure, &mut census.targets);
+        colours = measured_again(&mut measure, &mut tested.targets);
         if colours.is_empty() {
             // none tells what its pixels share: the noise of the rims is all that is known
-            census.targets.iter_mut().for_each(|target| widen(target, rim_noise));
+            tested.targets.iter_mut().for_each(|target| widen(target, rim_noise));
         }
     }
-    if let Some(alike) = alike::of(&mut measure, known, &census.targets) {
-        if soft.is_some() || alike.swallows() {
-            take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
+    if let Some(common) = small_targets::of(&mut measure, known, &tested.targets) {
+        if soft.is_some() || common.swallows() {
+            take_small_targets(&mut measure, &mut tested, &mut colours, &doubtful, &common, ExpectedShape::Disc);
         } else if rim_noise > hiding {
-            // what noise has hidden is a disc to the eye: texture that is like one is smaller or flatter than what is asked for
+            // noise makes small shapes look like discs: texture that is like one is smaller or flatter than what is asked for
             let large = |outline: &&Outline| 2.0 * outline.semi_axes().1 >= options.min_diameter;
             let large: Vec<Outline> = doubtful.iter().filter(large).copied().collect();
-            take_alike(&mut measure, &mut census, &mut colours, &large, &alike, Wanted::Disc);
+            take_small_targets(&mut measure, &mut tested, &mut colours, &large, &common, ExpectedShape::Disc);
         }
     }
-    let grounds = std::mem::take(&mut census.grounds);
+    let grounds = std::mem::take(&mut tested.grounds);
     let coloured = measure.work.coloured;
-    Pass { detection: census.finish(), grounds, colours, doubtful, coloured }
+    Pass { detection: tested.finish(), grounds, colours, doubtful, coloured }
 }
 
 /// Multiplies the standard errors of a target.
@@ -174,7 +176,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 
 /// Measures the targets of a picture again, now with the correlation of neighbouring pixels' noise, and returns that correlation for each. A target
 /// that cannot be measured again is left as it is; its standard errors take the median factor of the others ([`Pass::correlate`]).
-fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -> Vec<([f64; 2], Colour)> {
+fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -> Vec<([f64; 2], NoiseProducts)> {
     let mut colours = Vec::new();
     for target in targets {
         let found = measure.confirm(&code::outline_of(target), target.polarity == Polarity::Bright);
@@ -186,36 +188,37 @@ fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -
     colours
 }
 
-/// Whether targets are enough, and all of them so clear that covered ones of the same photo are seen above the lowest level.
-fn are_clear(levels: &Levels, targets: &[Target], Soft { scale, blur }: Soft) -> bool {
+/// Whether targets are enough, and most of them so clear that occluded ones of the same photo are seen above the lowest level.
+fn are_clear(levels: &GreyStatistics, targets: &[Target], Soft { scale, blur }: Soft) -> bool {
     let is_clear = |t: &Target| search::is_clear(levels, scale * t.contrast.abs(), t.quality.edge_width.hypot(blur));
-    targets.len() >= ENOUGH && targets.iter().all(is_clear)
+    targets.len() >= ENOUGH && 2 * targets.iter().filter(|target| is_clear(target)).count() > targets.len()
 }
 
 /// The outline, as far as it is known, of something without a shape that may still be a target by what the others show.
 fn disc(no: &NoBlob, options: &DetectOptions) -> Option<Outline> {
-    let sizes = ALIKE_SMALL * options.min_diameter..ALIKE_LARGE * options.max_diameter;
     let radius = no.diameter / 2.0;
     let round = || Outline::from_axes(no.u, no.v, radius, radius, 0.0);
-    (sizes.start < no.diameter && no.diameter < sizes.end).then(|| no.outline.unwrap_or_else(round))
+    // blur makes small discs look larger, noise smaller
+    let possible = BLOB_SMALL * options.min_diameter..options.max_diameter;
+    possible.contains(&no.diameter).then(|| no.outline.unwrap_or_else(round))
 }
 
 /// Takes those of the doubtful outlines for targets that are like the others.
-pub(super) fn take_alike<T: Sample>(
+pub(super) fn take_small_targets<T: Sample>(
     measure: &mut Measure<T>,
-    census: &mut Census,
-    colours: &mut Vec<([f64; 2], Colour)>,
+    tested: &mut TestedOutlines,
+    colours: &mut Vec<([f64; 2], NoiseProducts)>,
     doubtful: &[Outline],
-    alike: &Alike,
-    wanted: Wanted,
+    common: &CommonProperties,
+    wanted: ExpectedShape,
 ) {
     for outline in doubtful.iter().filter(|outline| outline.is_proper()) {
-        if !census.is_free(outline) {
+        if !tested.is_free(outline) {
             continue;
         }
-        if let Ok(target) = measure.alike(outline, alike, wanted) {
+        if let Ok(target) = measure.small_target(outline, common, wanted) {
             colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-            census.reconsider(target, alike.bright);
+            tested.reconsider(target, common.bright);
         }
     }
 }

@@ -13,16 +13,16 @@
 //! added up in the end. Single precision is enough: its rounding is 1e-6 of the contrast.
 
 pub(crate) mod band;
-pub(crate) mod colour;
 pub(crate) mod fit;
 mod flats;
 pub(crate) mod lit;
 pub(crate) mod neighbours;
+pub(crate) mod noise_autocorrelation;
+mod residual_covariance;
 mod scatter;
 mod shape;
 mod sketch;
 pub(crate) mod strip;
-mod taken;
 
 use wide::f32x4;
 

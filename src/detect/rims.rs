@@ -1,9 +1,9 @@
 //! Ring-shaped targets: the outer rim of a disc with a hole is the target, the rim of the hole its property.
 //!
 //! The search finds the hole, because it is a disc of one level, and not the disc around it. So the outer rim is looked for around every target that has no
-//! code: on rays from its centre, the ground of a hole ends where its own level comes back. If these places are an ellipse, it is confirmed and
+//! code: on rays from its centre, the background of a hole ends where its own level comes back. If these places are an ellipse, it is confirmed and
 //! measured as any other, in a copy of the picture: to be confirmed with the hole filled up with the level of the disc, for the fit with the
-//! hole left out, so that the rim of one says nothing of the other.
+//! hole left out, so that the two rims are independent.
 //!
 //! A dot in a closed ring has three rims: the dot, the gap, the ring. It is the design of a code's target without its code, and there the
 //! dot is the target, as in all codes. The same holds of more rims: the innermost disc counts. A disc on a round card has two rims and is
@@ -16,25 +16,25 @@ use super::acceptance::code::SPOT;
 use super::acceptance::levels::STROKE;
 use super::acceptance::rims::{CLEAR, CONCENTRIC, FARTHEST, OFF, RETURNS, ROUGH, SEEN};
 use super::code::outline_of;
-use super::edges::look::{self, DotLevels};
+use super::edges::quick_test::{self, DotLevels};
 use super::ellipse::conic;
 use super::ellipse::outline::Outline;
 use super::is_same;
-use super::measure::{Found, Measure};
-use super::part::Part;
+use super::measure::{Measure, PreliminaryTarget};
 use super::pass::Pass;
-use super::picture::noise::{self, Levels};
-use super::rendered::colour::Colour;
-use super::search::census::forget_rejected;
+use super::picture::noise::{self, GreyStatistics};
+use super::rendered::noise_autocorrelation::NoiseProducts;
+use super::search::tested_outlines::forget_rejected;
+use super::window::Window;
 use crate::detection::{
     DetectOptions, Detection, InnerRim, Method, Polarity, PolarityChoice, Reason, Rejected, Target,
 };
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Rays on which an outer rim is looked for, and the part of a pixel between two places on them.
 const RAYS: usize = 48;
 const STEP: f64 = 0.5;
-/// Pixels beside the outer rim that are copied: what lies around a target up to its own size is its ground.
+/// Pixels beside the outer rim that are copied: what lies around a target up to its own size is its background.
 const BESIDE: f64 = 40.0;
 
 /// A disc around a hole, ready to be measured, in a copy of the picture around it.
@@ -46,9 +46,9 @@ pub(super) struct Donut {
     /// Samples in which the hole has the disc's level, and in which it is left out.
     filled: Vec<u16>,
     hollow: Vec<u16>,
-    levels: Levels,
+    levels: GreyStatistics,
     coloured: bool,
-    found: Found,
+    found: PreliminaryTarget,
     inner: InnerRim,
 }
 
@@ -56,10 +56,10 @@ pub(super) struct Donut {
 const LEFT_OUT: u16 = u16::MAX;
 
 impl Donut {
-    /// What lies around a target, if that is the hole of a donut.
+    /// The outer rim around a target that is the hole of a donut.
     pub fn around<T: Sample>(
-        plane: &Plane<T>,
-        levels: &Levels,
+        plane: &SampleView<T>,
+        levels: &GreyStatistics,
         options: &DetectOptions,
         target: &Target,
         coloured: bool,
@@ -70,11 +70,11 @@ impl Donut {
         let hole = outline_of(target);
         let rough = rim_around(plane, levels, target, &hole)?;
         let size = 2.0 * rough.semi_axes().0 * 2.2 + 2.0 * BESIDE;
-        let Part { left, top, width, height, samples } = Part::of(plane, rough.u, rough.v, size.ceil() as usize);
+        let Window { left, top, width, height, samples } = Window::of(plane, rough.u, rough.v, size.ceil() as usize);
         let shift = |outline: Outline| Outline { u: outline.u - left as f64, v: outline.v - top as f64, ..outline };
         let (hole, rough) = (shift(hole), shift(rough));
         let mut filled: Vec<u16> = samples.iter().map(|sample| sample.level() as u16).collect();
-        let disc = level_between(&Plane::new(width, height, &filled), &hole, &rough);
+        let disc = level_between(&SampleView::new(width, height, &filled), &hole, &rough);
         let gone = without(&hole, &rough, target.quality.edge_width);
         let mut hollow = filled.clone();
         for y in 0..height {
@@ -83,8 +83,8 @@ impl Donut {
             filled[y * width..][columns.clone()].fill(disc.round().clamp(0.0, f64::from(T::MAX)) as u16);
             hollow[y * width..][columns].fill(LEFT_OUT);
         }
-        let levels = Levels { saturation: levels.saturation.min(f64::from(LEFT_OUT)), ..*levels };
-        let mut measure = Measure::new(Plane::new(width, height, &filled), levels, options);
+        let levels = GreyStatistics { saturation: levels.saturation.min(f64::from(LEFT_OUT)), ..*levels };
+        let mut measure = Measure::new(SampleView::new(width, height, &filled), levels, options);
         let bright = target.polarity == Polarity::Dark;
         let found = measure.confirm(&rough, bright).ok()?;
         let outline = &found.ellipse.outline;
@@ -94,7 +94,7 @@ impl Donut {
         }
         // the disc's level comes back all around: what looks like a hole is a dot in a closed ring
         let around = DotLevels { dot: disc, background: found.surround.level };
-        if look::stroke(&measure.plane, outline, around) > STROKE {
+        if quick_test::stroke(&measure.plane, outline, around) > STROKE {
             return None;
         }
         let inner = InnerRim::of(target);
@@ -103,12 +103,12 @@ impl Donut {
     }
 
     /// The target, by one method, and what its neighbouring pixels share. Only a fit can leave the hole out.
-    pub fn measured(&self, options: &DetectOptions, method: Method) -> Result<(Target, Option<Colour>), Reason> {
+    pub fn measured(&self, options: &DetectOptions, method: Method) -> Result<(Target, Option<NoiseProducts>), Reason> {
         let samples = if method == Method::LeastSquares { &self.hollow } else { &self.filled };
-        let mut measure = Measure::new(Plane::new(self.width, self.height, samples), self.levels, options);
+        let mut measure = Measure::new(SampleView::new(self.width, self.height, samples), self.levels, options);
         measure.work.coloured = self.coloured;
         let mut target = measure.finish(&self.found, method)?;
-        let filled = Measure::new(Plane::new(self.width, self.height, &self.filled), self.levels, options);
+        let filled = Measure::new(SampleView::new(self.width, self.height, &self.filled), self.levels, options);
         target.quality.saturated = filled.saturated(&outline_of(&target));
         (target.u, target.v) = (target.u + self.left, target.v + self.top);
         target.inner = Some(self.inner);
@@ -123,7 +123,7 @@ impl Donut {
     }
 
     /// The target by the method asked for, or at its ellipse where a fit to its levels fails.
-    fn target(&self, options: &DetectOptions) -> Result<(Target, Option<Colour>), Reason> {
+    fn target(&self, options: &DetectOptions) -> Result<(Target, Option<NoiseProducts>), Reason> {
         let by_levels = self.measured(options, options.method);
         by_levels.or_else(|reason| self.measured(options, Method::Ellipse).map_err(|_| reason))
     }
@@ -136,7 +136,7 @@ fn without(hole: &Outline, disc: &Outline, blur: f64) -> Outline {
     hole.grown(reach.min((a - hole_a).min(b - hole_b) / 2.0))
 }
 
-/// The same of a target; none of one without a hole.
+/// The same of a target; `None` for one without a hole.
 pub(super) fn left_out(target: &Target) -> Option<Outline> {
     let hole = outline_of(&hole_of(target)?);
     Some(without(&hole, &outline_of(target), target.quality.edge_width))
@@ -152,10 +152,10 @@ pub(super) fn hole_of(target: &Target) -> Option<Target> {
     Some(Target { inner: None, polarity, ..inner.laid_on(target.clone()) })
 }
 
-/// Makes donuts of those targets of a picture that are their holes. What was told as rejected in their place is so no longer.
+/// Makes donuts of those targets of a picture that are their holes. What was reported as rejected in their place is so no longer.
 pub(super) fn settle<T: Sample>(
-    plane: &Plane<T>,
-    levels: &Levels,
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
     options: &DetectOptions,
     coloured: bool,
     detection: &mut Detection,
@@ -194,7 +194,7 @@ pub(super) fn settle<T: Sample>(
 }
 
 /// The donut whose hole a target is, or the target as it is; `None` for a donut whose outer rim cannot be measured.
-pub(super) fn settle_one<T: Sample>(plane: &Plane<T>, options: &DetectOptions, target: Target) -> Option<Target> {
+pub(super) fn settle_one<T: Sample>(plane: &SampleView<T>, options: &DetectOptions, target: Target) -> Option<Target> {
     let levels = noise::levels(plane);
     let Some(donut) = Donut::around(plane, &levels, options, &target, false) else { return Some(target) };
     let (mut outer, _) = donut.target(options).ok()?;
@@ -213,8 +213,13 @@ pub(super) fn compare_centres(target: &mut Target) {
     inner.off_centre = square > OFF;
 }
 
-/// The outer rim around a hole: the ellipse beyond which the level of the hole comes back. None where it does not come back on enough rays.
-fn rim_around<T: Sample>(plane: &Plane<T>, levels: &Levels, target: &Target, hole: &Outline) -> Option<Outline> {
+/// The outer rim around a hole: the ellipse beyond which the level of the hole comes back. `None` if it does not come back on enough rays.
+fn rim_around<T: Sample>(
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
+    target: &Target,
+    hole: &Outline,
+) -> Option<Outline> {
     let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
     let rise = (RETURNS * target.contrast).max(CLEAR * levels.noise.max(target.quality.noise));
     let farthest = FARTHEST * hole.semi_axes().0;
@@ -258,7 +263,7 @@ fn rim_around<T: Sample>(plane: &Plane<T>, levels: &Levels, target: &Target, hol
 }
 
 /// Median level half-way between two rims.
-fn level_between(plane: &Plane<u16>, inner: &Outline, outer: &Outline) -> f64 {
+fn level_between(plane: &SampleView<u16>, inner: &Outline, outer: &Outline) -> f64 {
     let mut levels: Vec<f32> = (0..RAYS)
         .map(|k| {
             let (s, c) = (std::f64::consts::TAU * k as f64 / RAYS as f64).sin_cos();

@@ -9,25 +9,25 @@
 
 pub(crate) mod blob;
 mod bulge;
-pub(crate) mod census;
 mod component;
 mod halves;
 mod partial;
 mod scan;
+pub(crate) mod tested_outlines;
 
 use std::collections::HashSet;
 
-use self::blob::{Limits, NoBlob};
+use self::blob::{BlobLimits, NoBlob};
 use self::component::{Chord, Linker};
 use self::halves::Parts;
 use self::scan::Edge;
-use super::acceptance::picture::{FAINTER, QUARTERED, SEARCHED, STRONG};
+use super::acceptance::picture::{QUARTERED, SEARCHED, STRONG};
 use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
-use super::edges::look;
+use super::edges::quick_test;
 use super::ellipse::outline::Outline;
-use super::picture::noise::Levels;
+use super::picture::noise::GreyStatistics;
 use crate::detection::{DetectOptions, PolarityChoice, Reason};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// A rough outline with its polarity.
 #[derive(Clone, Copy, Debug)]
@@ -41,16 +41,16 @@ pub(crate) struct Candidate {
 #[derive(Default)]
 pub(crate) struct Blobs {
     pub candidates: Vec<Candidate>,
-    /// Ellipses that only a part of a blob's border follows: what is covered in part, or joined with what covers it.
+    /// Ellipses that only a part of a blob's border follows: what is occluded in part, or joined with what covers it.
     pub partial: Vec<Candidate>,
-    /// What had no shape, and what did not stand out.
+    /// Blobs without a clear shape, and blobs with too little contrast.
     pub shapeless: Vec<NoBlob>,
     pub unlike: Vec<NoBlob>,
     pub too_small: usize,
     pub too_large: usize,
-    /// What may be a part of a target that something divides.
+    /// Candidates for parts of a divided target.
     parts: Parts,
-    /// Whether hidden ones are looked for.
+    /// Whether occluded ones are looked for.
     hidden: bool,
 }
 
@@ -73,12 +73,12 @@ fn flattest(options: &DetectOptions) -> f64 {
 }
 
 /// Largest of a multiple of the noise, a share of the range and a number of levels.
-fn above(levels: &Levels, [noise, range, least]: [f64; 3]) -> f64 {
+fn above(levels: &GreyStatistics, [noise, range, least]: [f64; 3]) -> f64 {
     (noise * levels.noise).max(range * levels.range).max(least)
 }
 
 /// Lowest difference over three pixels that is an edge.
-pub(crate) fn threshold(levels: &Levels) -> f64 {
+pub(crate) fn threshold(levels: &GreyStatistics) -> f64 {
     above(levels, SEARCHED)
 }
 
@@ -94,22 +94,22 @@ fn thresholds(lowest: f64, range: f64) -> (Vec<u32>, usize) {
 }
 
 /// Whether targets of this contrast and blur have edges that [`Hidden::Clear`] sees, as have fainter ones of the same photo.
-pub(crate) fn is_clear(levels: &Levels, contrast: f64, blur: f64) -> bool {
+pub(crate) fn is_clear(levels: &GreyStatistics, contrast: f64, blur: f64) -> bool {
     let [_, second, ..] = thresholds(threshold(levels), levels.range).0[..] else { return true };
     // what an edge rises by over three pixels, its own width included
     let rise = contrast * libm::erf(1.5 / (2.0 * (blur * blur + 1.0 / 12.0)).sqrt());
-    rise > FAINTER * f64::from(second)
+    rise > f64::from(second)
 }
 
 /// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
 /// edges come first, then those of the levels that are shares of the range, those of the quartered picture last.
 pub(crate) fn search<T: Sample>(
-    plane: &Plane<T>,
-    levels: &Levels,
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
     options: &DetectOptions,
     hidden: Hidden,
 ) -> Vec<Blobs> {
-    let limits = Limits {
+    let limits = BlobLimits {
         min_diameter: options.min_diameter,
         max_diameter: options.max_diameter,
         flattest: flattest(options),
@@ -119,11 +119,11 @@ pub(crate) fn search<T: Sample>(
     };
     let look = |outline: &Outline, bright| match hidden {
         Hidden::Faint => Err(Reason::NotAnEllipse),
-        _ => look::first(plane, levels, outline, bright),
+        _ => quick_test::first(plane, levels, outline, bright),
     };
-    let new = |lowest, limits| Pass::new(thresholds(lowest, levels.range), options.polarity, limits, hidden);
+    let new = |lowest, limits| LevelScan::new(thresholds(lowest, levels.range), options.polarity, limits, hidden);
     let mut whole = new(threshold(levels), limits);
-    let limits = Limits {
+    let limits = BlobLimits {
         min_diameter: LARGE.max(options.min_diameter) / 4.0,
         max_diameter: options.max_diameter / 4.0,
         flattest: flattest(options),
@@ -176,30 +176,30 @@ fn enlarged(outline: &Outline) -> Outline {
     Outline { u, v, ..outline.scaled(4.0) }
 }
 
-/// What one picture shows, row by row.
-struct Pass {
-    limits: Limits,
+/// State of the scan of one picture, row by row.
+struct LevelScan {
+    limits: BlobLimits,
     levels: Vec<Level>,
     /// How many of them are shares of the range.
     strong: usize,
     edges: Vec<Edge>,
     runs: Vec<Chord>,
-    /// Blobs without a shape that were looked at closely: other levels see many of them again.
+    /// Blobs without a shape that were examined closely: other levels see many of them again.
     tried: HashSet<[u32; 6]>,
 }
 
-/// What sees the edges above one threshold.
+/// The search for edges above one threshold.
 struct Level {
     threshold: u32,
     linkers: Vec<(bool, Linker)>,
     blobs: Blobs,
 }
 
-impl Pass {
+impl LevelScan {
     fn new(
         (mut thresholds, mut strong): (Vec<u32>, usize),
         polarity: PolarityChoice,
-        limits: Limits,
+        limits: BlobLimits,
         hidden: Hidden,
     ) -> Self {
         let wanted: &[bool] = match polarity {
@@ -265,7 +265,7 @@ impl Blobs {
         &mut self,
         chain: &[Chord],
         bright: bool,
-        limits: &Limits,
+        limits: &BlobLimits,
         look: &impl Fn(&Outline, bool) -> Result<(), Reason>,
         tried: &mut HashSet<[u32; 6]>,
     ) {
@@ -290,7 +290,7 @@ impl Blobs {
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
                     outlines.for_each(&mut enter);
                 }
-                // one that is covered in part, divided, or joined with what lies in front of it
+                // one that is occluded in part, divided, or joined with what lies in front of it
                 if self.hidden
                     && matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat | Reason::TooLarge)
                     && let [first, .., last] = chain
@@ -324,10 +324,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn covered_targets_too_faint_for_the_second_level_are_seen_on_the_lowest() {
+    fn occluded_targets_too_faint_for_the_second_level_are_seen_on_the_lowest() {
         let options = DetectOptions::default();
-        let levels =
-            Levels { noise: 0.5, range: 200.0, saturation: 255.0, stairs: false, quantum: 1.0, developed: false };
+        let levels = GreyStatistics {
+            noise: 0.5,
+            range: 200.0,
+            saturation: 255.0,
+            stairs: false,
+            quantum: 1.0,
+            developed: false,
+        };
         let second = thresholds(threshold(&levels), levels.range).0[1];
         // a disc of which a bar covers a sixth on the right
         let seen = |contrast: f64| {
@@ -338,7 +344,7 @@ mod tests {
             };
             let samples: Vec<u8> = (0..120 * 120).map(sample).collect();
             [Hidden::None, Hidden::Clear, Hidden::Faint].map(|hidden| {
-                let blobs = search(&Plane::new(120, 120, &samples), &levels, &options, hidden);
+                let blobs = search(&SampleView::new(120, 120, &samples), &levels, &options, hidden);
                 let is_it = |found: &&Candidate| (found.outline.u - 60.3).hypot(found.outline.v - 59.6) < 1.0;
                 blobs.iter().flat_map(|blobs| &blobs.partial).filter(is_it).count() > 0
             })

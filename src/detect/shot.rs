@@ -16,7 +16,7 @@ pub fn detect_shot(shot: &Shot, options: &DetectOptions) -> Result<Detection> {
     }
 }
 
-/// Measures the one target at a click; none when there is no target.
+/// Measures the one target at a click; `None` if there is no target.
 ///
 /// # Errors
 /// As for [`measure_at`](super::measure_at).

@@ -2,7 +2,7 @@
 //!
 //! They are searched in a grey picture made from the sites of one colour ([`plane`]), with the whole of the detection for ordinary
 //! pictures, and measured on these sites alone: no sample is interpolated, every one has its own place and its own standard error
-//! ([`noise`]), and what the white level clips says no more than that ([`fit`]). What red or blue, with a quarter of the sites each, is too
+//! ([`noise`]), and saturated samples are used only as lower bounds ([`fit`]). What red or blue, with a quarter of the sites each, is too
 //! coarse to be searched for is searched in green too, and measured on the sites asked for.
 
 mod codes;
@@ -12,24 +12,24 @@ mod noise;
 mod plane;
 
 use super::ellipse::outline::Outline;
-use super::part::Part;
 use super::rendered::Field;
 use super::rendered::neighbours::Neighbours;
 use super::rims;
+use super::window::Window;
 use super::{check_place, code::outline_of, detect_photo, edges::edge, edges::surround, measure_in_photo};
-use crate::decode::Photo;
+use crate::decode::DecodedPhoto;
 use crate::detection::{
-    Channel, Colour, DetectOptions, Detection, InnerRim, Measured, MeasuredOn, Method, Polarity, Reason, Rejected,
+    Channel, Colour, DetectOptions, Detection, InnerRim, MeasuredOn, Method, Polarity, Reason, Rejected, SampleSource,
     Target,
 };
 use crate::error::{Error, Place, Reason as Wrong, Result};
-use crate::image::{Grey, Plane, Samples};
+use crate::image::{Grey, SampleView, Samples};
 use crate::sensor::{Sensor, measured_colour};
 use curve::Curve;
 use fit::SiteFit;
 use noise::NoiseModel;
 
-/// Pixels beside a target and what is looked at around it.
+/// Pixels beside a target and what is examined around it.
 const BESIDE: f64 = 32.0;
 
 /// The sites of one colour, with all that a fit needs to know of them.
@@ -37,7 +37,7 @@ pub(crate) struct Sites<'a> {
     sensor: &'a Sensor,
     colour: Colour,
     noise: NoiseModel,
-    /// Sample from which one is clipped, black not taken off.
+    /// Sample from which one is saturated, black not taken off.
     clip: f64,
     /// Left, top, right and bottom of the part that light reaches.
     lit: [usize; 4],
@@ -121,7 +121,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
     detection.picture.noise = sites.noise.deviation(sites.noise.usual);
     detection.picture.noise_correlation = 1.0;
     detection.picture.compression = 0.0;
-    detection.measured = Some(sites.told(options.method, searched.hot));
+    detection.measured = Some(sites.sample_source(options.method, searched.hot));
     Ok(detection)
 }
 
@@ -154,7 +154,7 @@ pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &Detec
     Ok(seen.and_then(|target| sites.again(&searched, &target, options, &mut field)))
 }
 
-/// Targets that are known, measured on the sites of another colour, without a search; none where that has no target.
+/// Targets that are known, measured on the sites of another colour, without a search; `None` if that has no target.
 ///
 /// # Errors
 /// As for [`detect_sensor`].
@@ -171,7 +171,7 @@ pub(super) fn measured_again(
 
 /// The grey picture of the search, of the lit part.
 struct Searched {
-    photo: Photo,
+    photo: DecodedPhoto,
     /// What each of its levels is in light, in 16 bits again, and their levels for a unit of light.
     light: Vec<u16>,
     per_light: f64,
@@ -187,26 +187,26 @@ impl Searched {
         let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
         let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
         let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
-        let photo = Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect(), page: None };
+        let photo = DecodedPhoto { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect(), page: None };
         Self { photo, light: curve.undone(), per_light: curve.per_light(), hot }
     }
 
-    fn plane(&self) -> Option<Plane<'_, u16>> {
+    fn plane(&self) -> Option<SampleView<'_, u16>> {
         let Grey { width, height, samples: Samples::U16(samples) } = &self.photo.grey else { return None };
-        Some(Plane::new(*width, *height, samples))
+        Some(SampleView::new(*width, *height, samples))
     }
 
-    /// What stands around a fit, up to `reach` beyond its rim, and throws onto a site at a place of this picture.
+    /// Light of objects around a fit, up to `reach` beyond its rim, that blur carries onto a site of this picture.
     fn neighbours(&self, fit: &SiteFit, shift: [f64; 2], reach: f64) -> Option<impl Fn(f64, f64) -> f64 + use<>> {
         let outline = Outline { u: fit.outline.u - shift[0], v: fit.outline.v - shift[1], ..fit.outline };
         let size = 2.0 * (outline.semi_axes().0 + reach) + BESIDE;
-        let Part { left, top, width, height, samples } =
-            Part::of(&self.plane()?, outline.u, outline.v, size.ceil() as usize);
+        let Window { left, top, width, height, samples } =
+            Window::of(&self.plane()?, outline.u, outline.v, size.ceil() as usize);
         let in_light = |level: &u16| self.light[usize::from(*level).min(self.light.len() - 1)];
         let samples: Vec<u16> = samples.iter().map(in_light).collect();
         let part = [left as f64, top as f64];
         let outline = Outline { u: outline.u - part[0], v: outline.v - part[1], ..outline };
-        let plane = Plane::new(width, height, &samples);
+        let plane = SampleView::new(width, height, &samples);
         let [contrast, rms] = [fit.contrast, fit.rms].map(|light| self.per_light * light);
         let neighbours = Neighbours::of(&plane, &outline, fit.blur, contrast, reach, rms)?;
         Some(move |x: f64, y: f64| neighbours.light(x - shift[0] - part[0], y - shift[1] - part[1]))
@@ -214,7 +214,7 @@ impl Searched {
 }
 
 impl Sites<'_> {
-    /// The options of a search in green, of which a sensor has twice the sites; none where green is measured or there is none. Other methods
+    /// The options of a search in green, of which a sensor has twice the sites; `None` if green is measured or there is none. Other methods
     /// than the fit measure in the picture of the search itself.
     fn in_green(&self, options: &DetectOptions) -> Option<DetectOptions> {
         let fewer = matches!(self.colour, Colour::Red | Colour::Blue) && self.sensor.mosaic.pattern.has(Colour::Green);
@@ -249,7 +249,7 @@ impl Sites<'_> {
         detection.rejected.retain(|_, count| *count > 0);
     }
 
-    /// A target that is known on the whole grid, measured on the sites; none where this colour does not show it.
+    /// A target that is known on the whole grid, measured on the sites; `None` if this colour does not show it.
     fn again(
         &self,
         searched: &Searched,
@@ -280,7 +280,7 @@ impl Sites<'_> {
         let around = surround::measure(&plane, &outline, blur.max(0.7), &all, u32::MAX).ok_or(Reason::NoFit)?;
         let outline = Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
         let light = |fit: &SiteFit, reach: f64| searched.neighbours(fit, shift, reach);
-        // where a ring stands near by, only the gap before it is ground
+        // where a ring stands near by, only the gap before it is background
         let shifted = |outline: Outline| Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
         let hole = rims::left_out(&target).map(shifted);
         let found = fit::fit(self, &outline, hole.as_ref(), blur, around.outer, field, light)
@@ -324,10 +324,10 @@ impl Sites<'_> {
         Ok(measured)
     }
 
-    /// What the detection says of what it was measured on.
-    fn told(&self, method: Method, hot: usize) -> Measured {
+    /// Description of the data on which the detection was measured.
+    fn sample_source(&self, method: Method, hot: usize) -> SampleSource {
         let Sensor { format, bits, mosaic, corrections, unread_corrections, .. } = self.sensor;
-        Measured {
+        SampleSource {
             on: if method == Method::LeastSquares { MeasuredOn::Sites } else { MeasuredOn::InterpolatedSites },
             format: format.clone(),
             colour: Some(self.colour),

@@ -35,7 +35,7 @@ pub struct ScaleBar {
 }
 
 impl ScaleBar {
-    /// Its distance in another unit; none where the units cannot be brought together.
+    /// Its distance in another unit; `None` if the units cannot be brought together.
     pub fn distance(&self, unit: &str) -> Option<Distance> {
         let factor = unit_factor(&self.unit, unit)?;
         let (from, to) = (self.from.clone(), self.to.clone());

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::adjustment::AdjustedCamera;
 use crate::error::Result;
 use crate::exif::PhotoInfo;
-use crate::project::{Camera, ColourDifferences, Interior, LensColour, Origin, Parameter, Project};
+use crate::project::{Camera, Interior, Origin, Parameter, Project};
 
 /// Focal lengths that differ by less, as a share, are one setting of a lens: EXIF rounds them.
 const SAME_FOCAL_LENGTH: f64 = 0.005;
@@ -35,7 +35,7 @@ pub struct KnownCamera {
     pub calibrations: Vec<Calibration>,
 }
 
-/// What a calibration found.
+/// Result of a calibration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// When, as `YYYY-MM-DD`.
@@ -49,31 +49,28 @@ pub struct Calibration {
     /// Standard errors of the parameters that were estimated.
     #[serde(default)]
     pub sigma: BTreeMap<Parameter, f64>,
-    /// What is added to the parameters for red and blue.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub colours: BTreeMap<LensColour, ColourDifferences>,
-    /// Whatever there is to say of it.
+    /// All notes on it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remark: String,
-    /// The file of another program that it was read from.
+    /// The file of another program, or of an earlier version, that it was read from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Box<Origin>>,
 }
 
-/// What a calibration is in a project.
+/// How a calibration is used in a project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Use {
     /// Every parameter is held.
     Held,
-    /// What was estimated is observed with its standard errors, the rest held.
+    /// Estimated parameters are observed with their standard errors, the others are held.
     Observed,
-    /// What was estimated begins there and is estimated freely, the rest held.
+    /// Estimated parameters start there and are estimated freely, the others are held.
     Free,
 }
 
 impl KnownCamera {
-    /// A camera as an adjustment left it, with the name that it has in the project. `info` is what its photos say.
+    /// A camera as an adjustment left it, with its name in the project. `info` is the metadata of its photos.
     pub fn adjusted(adjusted: &AdjustedCamera, info: &PhotoInfo, date: &str) -> Self {
         let camera = &adjusted.camera;
         let sigma = adjusted.sigma.iter().filter(|(_, sigma)| **sigma > 0.0).map(|(p, sigma)| (*p, *sigma)).collect();
@@ -89,14 +86,13 @@ impl KnownCamera {
                 pixel_pitch: camera.pixel_pitch,
                 interior: camera.interior,
                 sigma,
-                colours: camera.colours.clone(),
                 remark: String::new(),
                 origin: None,
             }],
         }
     }
 
-    /// Whether a photo was taken with it, by its model, its focal length and its grid. A photo that names no model says nothing:
+    /// Whether a photo was taken with it, by its model, its focal length and its grid. A photo without a model name does not decide:
     /// then no camera is known again.
     pub fn took(&self, info: &PhotoInfo, [width, height]: [u32; 2]) -> bool {
         let words = |name: &Option<String>| name.as_ref().map(|name| name.trim().to_lowercase());
@@ -160,8 +156,6 @@ impl Calibration {
     pub fn apply(&self, camera: &mut Camera, how: Use) {
         camera.interior = self.interior;
         camera.pixel_pitch = self.pixel_pitch;
-        // differences are of this model, in its unit
-        camera.colours.clone_from(&self.colours);
         let estimated = self.interior.parameters().iter().copied().filter(|p| self.sigma.contains_key(p));
         camera.free = if how == Use::Held { Vec::new() } else { estimated.collect() };
         camera.sigma = if how == Use::Observed { self.sigma.clone() } else { BTreeMap::new() };

@@ -22,7 +22,6 @@ fn calibration(date: &str, c: f64) -> Calibration {
         pixel_pitch: Some([0.0039; 2]),
         interior: Interior::brown(c),
         sigma: [(Parameter::C, 0.002), (Parameter::K1, 3e-7)].into(),
-        colours: Default::default(),
         remark: String::new(),
         origin: None,
     }
@@ -198,4 +197,20 @@ fn a_bar_gives_its_distance_where_both_ends_are_seen_twice() {
     p.distances.clear();
     p.observations[0].enabled = false;
     assert!(bars_in(&bars, &p).is_empty());
+}
+
+#[test]
+fn lateral_colour_of_an_earlier_version_is_named_in_the_origin_of_its_calibration() {
+    let mut known = equipment();
+    known.cameras[0].keep(calibration("2026-06-01", 35.2));
+    let text = known.write().expect("text");
+    let at = text.rfind("\"sigma\": {").expect("a calibration's sigma");
+    let set = r#""colours": {"red": {"parameters": {"c": 0.01}}}, "#;
+    let read = Equipment::read(&format!("{}{set}{}", &text[..at], &text[at..]));
+    let [plain, earlier] = &read.expect("equipment").cameras[0].calibrations[..] else { panic!("two calibrations") };
+    assert_eq!(plain.origin, None);
+    let origin = earlier.origin.as_deref().expect("an origin");
+    assert!(!origin.is_foreign() && origin.ignored[0].name == RemovedFields::OF_CAMERAS);
+    let calibration = Calibration { origin: None, ..earlier.clone() };
+    assert_eq!(calibration, known.cameras[0].calibrations[1]);
 }

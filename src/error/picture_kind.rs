@@ -6,29 +6,29 @@ use serde::{Deserialize, Serialize};
 
 use PictureKind as K;
 
-/// What a picture that is not read is.
+/// Kind of a picture file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub enum PictureKind {
-    /// A format by its own name, which is the same in every language: WebP.
+    /// A format whose name is the same in every language, for example WebP.
     Named(String),
-    /// A sensor's samples in a maker's format; empty where that is not known.
+    /// A RAW file with the name of its format; empty if that is not known.
     Raw(String),
-    /// Those of a sensor whose colours lie above each other.
+    /// A RAW file of a layered (Foveon) sensor, with the name of its format.
     RawLayered(String),
-    /// Those with so many samples a pixel.
+    /// A RAW file with an unsupported number of samples per pixel: format, number.
     RawSamples(String, usize),
-    /// Those of a camera.
+    /// A RAW file of an unsupported camera: format, camera.
     RawCamera(String, String),
-    /// HEIF of items of a kind.
+    /// HEIF with an unsupported type of items.
     HeifOf(String),
-    /// HEIF of pictures laid over each other.
+    /// HEIF composed of overlaid pictures.
     HeifOverlay,
-    /// A kind of a format that is seldom written.
+    /// A rare variant of the named format.
     Rare(String),
     /// MP4 or QuickTime.
     Video,
-    /// Samples that are no whole numbers.
+    /// Floating-point samples.
     FloatingPoint,
     /// TIFF with a palette of other than 1, 2, 4 or 8 bits.
     DeepPalette,
@@ -42,11 +42,11 @@ pub enum PictureKind {
     TwelveBitJpeg,
     /// JPEG of other than 8 bits.
     OddJpeg,
-    /// JPEG whose height stands behind its samples.
+    /// JPEG whose height is given after the samples (DNL marker) instead of in the header.
     JpegWithoutHeight,
 }
 
-/// Those without values.
+/// Kinds without values, with their names in JSON.
 const PLAIN: [(PictureKind, &str); 10] = [
     (K::HeifOverlay, "HEIF of pictures laid over each other"),
     (K::Video, "MP4 or QuickTime video"),
@@ -61,7 +61,7 @@ const PLAIN: [(PictureKind, &str); 10] = [
 ];
 
 impl PictureKind {
-    /// Whether it is the samples of a sensor.
+    /// Whether it is a RAW file.
     pub fn is_raw(&self) -> bool {
         matches!(self, K::Raw(_) | K::RawLayered(_) | K::RawSamples(..) | K::RawCamera(..))
     }
@@ -90,7 +90,7 @@ impl From<PictureKind> for String {
 }
 
 impl From<String> for PictureKind {
-    /// The kind of these words; words of no other are a name.
+    /// The kind with this name in JSON; any other text becomes [`PictureKind::Named`].
     fn from(words: String) -> Self {
         if let Some((kind, _)) = PLAIN.iter().find(|(_, plain)| *plain == words) {
             return kind.clone();
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_kind_is_its_words_in_json_and_comes_back() {
+    fn every_kind_is_written_to_json_and_read_back() {
         let with_values = [
             (K::Named("JPEG XL".into()), "JPEG XL"),
             (K::Named("HEIF".into()), "HEIF"),

@@ -12,16 +12,114 @@ macro_rules! reasons {
         /// Why something is not allowed where it stands.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(tag = "kind", rename_all = "snake_case")]
-        #[allow(missing_docs)] // the values are named by what stands in the sentence
+        #[allow(missing_docs)] // the values are documented by the sentence
         pub enum Reason {
             $(#[doc = $sentence] $name $({ $($value: $type),+ })?,)+
+            /// A reason that a crate above the engine declares.
+            #[serde(untagged)]
+            Other(OtherReason),
         }
 
         impl fmt::Display for Reason {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 match self {
                     $(Self::$name $({ $($value),+ })? => write!(f, $sentence),)+
+                    Self::Other(other) => other.fmt(f),
                 }
+            }
+        }
+    };
+}
+
+/// A reason that a crate above the engine declares with [`declare_reasons!`](crate::declare_reasons): the engine carries it and does not know it. In
+/// JSON it is like any other, its name under `kind` and its values beside; the sentence is not stored, and the crate that declared it writes it again.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct OtherReason {
+    /// Its name.
+    pub kind: String,
+    /// Its values.
+    #[serde(flatten)]
+    pub values: serde_json::Map<String, serde_json::Value>,
+    /// Its English sentence; empty if it came as JSON.
+    #[serde(skip)]
+    pub sentence: String,
+}
+
+impl PartialEq for OtherReason {
+    fn eq(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.values == other.values
+    }
+}
+
+impl fmt::Display for OtherReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.sentence.is_empty() {
+            return f.write_str(&self.sentence);
+        }
+        f.write_str(&self.kind)?;
+        self.values.iter().try_for_each(|(name, value)| write!(f, ", {name}: {value}"))
+    }
+}
+
+impl Reason {
+    /// The reason of a crate above the engine as data.
+    pub fn other<R: Serialize + fmt::Display>(reason: &R) -> Self {
+        let values = match serde_json::to_value(reason) {
+            Ok(serde_json::Value::Object(values)) => values,
+            _ => serde_json::Map::new(),
+        };
+        let mut values = values;
+        let kind = match values.remove("kind") {
+            Some(serde_json::Value::String(kind)) => kind,
+            _ => String::new(),
+        };
+        Self::Other(OtherReason { kind, values, sentence: reason.to_string() })
+    }
+
+    /// The reason again as the crate that declared it knows it, if it is one of `R`.
+    pub fn as_other<R: for<'de> Deserialize<'de>>(&self) -> Option<R> {
+        let Self::Other(other) = self else { return None };
+        serde_json::from_value(serde_json::to_value(other).ok()?).ok()
+    }
+}
+
+/// Declares the reasons of a crate above the engine: an enum whose values become a [`Reason`](crate::error::Reason) by `into()`, and come back from one by `of`.
+/// Names are unique among all crates, since they share one `kind` in JSON.
+#[macro_export]
+macro_rules! declare_reasons {
+    ($(#[$doc:meta])+ $enum:ident { $($name:ident $({ $($value:ident: $type:ty),+ })? => $sentence:literal;)+ }) => {
+        $(#[$doc])+
+        #[derive(Clone, Debug, PartialEq, ::serde::Serialize, ::serde::Deserialize)]
+        #[serde(tag = "kind", rename_all = "snake_case")]
+        #[allow(missing_docs)] // the values are documented by the sentence
+        pub enum $enum {
+            $(#[doc = $sentence] $name $({ $($value: $type),+ })?,)+
+        }
+
+        impl ::std::fmt::Display for $enum {
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
+                match self {
+                    $(Self::$name $({ $($value),+ })? => write!(f, $sentence),)+
+                }
+            }
+        }
+
+        impl From<$enum> for $crate::error::Reason {
+            fn from(reason: $enum) -> Self {
+                Self::other(&reason)
+            }
+        }
+
+        impl $enum {
+            /// The reason again, if it is one of these.
+            pub fn of(reason: &$crate::error::Reason) -> Option<Self> {
+                reason.as_other()
+            }
+
+            /// The reason of an error, if it is one of these.
+            pub fn of_error(error: &$crate::error::Error) -> Option<Self> {
+                let $crate::error::Error::Invalid { reason, .. } = error else { return None };
+                Self::of(reason)
             }
         }
     };
@@ -29,13 +127,9 @@ macro_rules! reasons {
 
 reasons! {
     // The document
-    NotADocument => "not a Sightline document: \"format\": \"sightline\" is missing";
     NotJson { message: String } => "not a Sightline document: {message}";
     Format { format: String, version: u32 } => "this is format \"{format}\" version {version}; only \"sightline\" version 1 is supported";
-    NewerVersion { version: String } => "the document has version {version}, but this program reads version 1: open it with a newer program";
-    NoVersion => "the document has no version";
     DamagedDocument { message: String } => "the document is damaged: {message}";
-    OneFile { given: usize } => "this format consists of one file; {given} were given";
     InteriorModel => "the photo's own interior orientation must use the model of its camera";
     TargetDiameter => "the diameter of a target must be greater than 0";
     TargetNormal => "the normal of a target must not be 0 in all components";
@@ -43,24 +137,18 @@ reasons! {
     DistanceEnds => "a distance needs two different points";
     DistanceLength => "a distance must be greater than 0";
     DistanceSigma => "the standard error of a distance must be greater than 0";
-    RigPosition => "the standard error of a rig's positions is greater than 0";
-    RigRotation => "the standard error of a rig's rotations is at least 1e-8 radians: no mount holds better";
-    RigColumns => "every exposure of a rig has one place for each of its cameras, two or more; null where a camera took no photo";
-    RigCamera => "the photos of one column of a rig are of one camera: another photo of the column is of another camera";
+    RigPosition => "the standard error of a rig's positions must be greater than 0";
+    RigRotation => "the standard error of a rig's rotations must be at least 1e-8 radians: no mount is more rigid";
+    RigColumns => "every exposure of a rig needs one entry for each of its cameras (at least two): a photo, or null if the camera took none";
+    RigCamera => "all photos in a column of a rig must be of one camera, but this column has photos of two cameras";
     NotFinite => "a number is not finite or too large";
-    NegativeSigma => "a standard error must be 0 (fixed) or greater";
+    NegativeSigma => "a standard error must be 0 (held) or greater";
     PrincipalDistance => "the principal distance must be greater than 0";
     ParameterNotFinite => "a parameter must be a finite number";
     SensorGrid => "width and height of the sensor grid must be at least one pixel";
     PixelPitch => "the pixel pitch must be greater than 0 millimetres";
     ParameterSigma => "the a priori standard error of a parameter must be greater than 0; leave it out to hold the parameter";
     FocalLengthTwice => "f stands for fx = fy: estimate either f, or fx and fy";
-
-    // Colours of a lens
-    NoColoursMeasured => "no photo of this camera has lateral colour measured: measure red and blue of a RAW photo";
-    ColoursOfAnotherGrid { photo: String } => "photo \"{photo}\" has another grid than the other photos with lateral colour: measure photos of one size";
-    ColoursWithoutDistance => "lateral colour needs the principal distance, which is not known yet: orient or adjust first";
-    ColoursBeyondModel { left_px: Number } => "the camera model cannot describe {left_px} pixels of the lateral colour: the distortion folds within the image, or does not come from a lens";
 
     // Boards of dots
     BoardSize { given: u32, needed: u32 } => "{given} is given; a board needs at least {needed} here, and at most 10000 dots";
@@ -121,6 +209,13 @@ reasons! {
     EpochReferenceMany { given: usize, limit: usize } => "reference points: {given}, at most {limit} are tested together: name only those assumed to be stable";
     EpochMatrix { rows: usize, expected: usize } => "the covariance matrix has {rows} rows, or rows whose length is not {expected}: three rows and columns per point, or the lower triangle, are expected";
     EpochNotCovariance => "not a covariance matrix: it must be symmetric, and no combination of coordinates may have a negative variance";
+    EpochShareMethod => "cameras can be shared only in one adjustment of all epochs: choose the method joint, a variance factor other than separate, the datum of the reference points, and epochs that are projects without a rig and without kept control; or share no camera";
+    EpochShareOptions { name: String, first: String } => "epochs \"{first}\" and \"{name}\" were adjusted with different weights, or with variance components: adjust both with the same options, or share no camera";
+    EpochCameraMissing { camera: String, name: String } => "epoch \"{name}\" has no camera \"{camera}\": give the camera the same name in all epochs, or do not share it";
+    EpochCameraUnlike { camera: String, name: String, first: String } => "camera \"{camera}\" differs between epochs \"{first}\" and \"{name}\" in model, sensor, estimated parameters or held values: use the same settings in both, or do not share it";
+    EpochShareMany { points: usize, limit: usize } => "all epochs together have {points} points; at most {limit} can be adjusted together, which shared cameras need: compare fewer epochs or points, or share no camera";
+    EpochJointNotConverged => "the joint adjustment of all epochs did not converge: share no camera, or compare coordinates";
+    DisplacedApart { given: usize } => "points common to the project and the comparison: {given}; at least three that do not lie on a line are needed to show displacements in its photos: open a project that is one of the epochs";
     EpochDate { text: String } => "\"{text}\" is not a date: write it as 2026-03-14 or 2026-03-14T09:30";
     MonitoringProbability { name: String, value: Number } => "{name} is {value}; a probability above 0 is expected, at most 0.5 for the significance";
     MonitoringThresholds => "thresholds must be lengths above 0, and the warning at most the alarm";
@@ -145,72 +240,15 @@ reasons! {
     Samples { samples: usize, width: usize, height: usize } => "{samples} samples do not make a picture of {width} x {height} pixels";
 
     // Texts and tables
-    NotText => "not a text in UTF-8, UTF-16 or CP949: save it as a text file in UTF-8";
     Missing { name: String } => "{name} is missing";
-    MissingField { name: String, fields: usize } => "{name} is missing (fields in this line: {fields})";
     NotANumber { name: String, text: String } => "{name} is not a number: \"{text}\"";
-    NotWhole { name: String, text: String } => "{name} is not a whole number: \"{text}\"";
     NotPositive { name: String, value: Number } => "{name} is not positive: {value}";
-    Negative { name: String, value: Number } => "{name} is negative: {value}";
-    CommaAmongPoints { name: String, text: String } => "{name} has a comma, but the other numbers have a decimal point: \"{text}\" (write it without thousands separators)";
-    PointAmongCommas { name: String, text: String } => "{name} has a point, but the other numbers have a decimal comma: \"{text}\" (write it without thousands separators)";
     NoneOf { name: String, choices: String, text: String } => "{name} is none of {choices}: \"{text}\"";
-    AmbiguousNumber { name: String, text: String, decimal: String, thousands: String } => "{name} is ambiguous: \"{text}\" is {decimal} with a decimal comma and {thousands} with a thousands separator; choose the decimal sign";
-    SeparatorBothWays => "the field separator may separate decimals or thousands too: save the table with semicolons or tabs, or with decimal points and a heading that names every column";
-    MoreFields { fields: usize, columns: usize } => "this line has {fields} fields, but the heading names {columns} columns";
-    HeadingIncomplete { name: String } => "the heading names no column {name}: name the columns id, X, Y and Z (or N, E, H)";
-    HeadingTwice { name: String } => "the heading names two columns {name}";
-    UnitOfCoordinates => "the heading gives a unit for the standard errors but none for the coordinates: choose the unit of the coordinates";
-    GeographicHeading => "the heading names latitude and longitude: project the points into a plane system first (TM, UTM), since the adjustment is in space";
-    GeographicAngle { name: String, text: String } => "{name} is an angle: \"{text}\"; project the points into a plane system first (TM, UTM), since the adjustment is in space";
-    ListColumns { needed: usize, columns: usize } => "a row of this list needs at least {needed} columns; this one has {columns}";
     TooLarge { name: String, text: String } => "{name} is too large: \"{text}\"";
     Scaled { value: Number, factor: Number } => "{value} times {factor} is too large for a document; nothing was converted";
-    ControlColumns { columns: usize } => "a control point needs four columns (id, X, Y, Z), but the table has {columns}";
 
     // The project file
-    NameWithFolders => "a photo's file name must not contain folders";
-    Entries { entries: usize, limit: usize } => "the archive has {entries} entries; a project file has up to {limit}";
-    SameNames => "not a project file: entries of the archive have the same name";
-    SharedBytes => "not a project file: entries of the archive share their bytes";
-    EntryName => "the name of an entry of the archive is damaged";
-    EntrySize => "this part of the project file is damaged: its size is not the stated one";
-    TakesTooMuch { megabytes: u64 } => "the document would take more than {megabytes} MB of memory";
-    CannotCarry { name: String } => "the identifier \"{name}\" cannot be written in this format, where it would be read as another one: rename it";
-    NoProjectInside => "not a project file: the archive contains no project.json";
-    DamagedEntry { message: String } => "the project file is damaged: {message}";
-    Unpacks { megabytes: u64 } => "not a project file: the archive unpacks to more than {megabytes} MB";
-    DamagedArchive { message: String } => "not a project file, or a damaged one ({message}): save it again with the program that made it";
-    CannotPack { message: String } => "the project file cannot be written: {message}";
     CannotWriteJson { message: String } => "cannot be written as JSON: {message}";
-    CannotWritePicture { message: String } => "the picture cannot be written: {message}";
-
-    // Other programs' files
-    PhotoModelerCut { part: PhotoModelerPart } => "not a PhotoModeler text export, or incomplete: {part} is missing";
-    NoPixels => "the picture has no pixels";
-    NotDbat => "not a DBAT project: document and input are missing";
-    NoColumn { column: String } => "the format has no column {column}";
-    ColumnsNotNamed { file: String } => "the columns of {file} are not named";
-    Numbers { name: String, count: usize, text: String } => "{name} is not {count} numbers: \"{text}\"";
-    SizeNotPositive { name: String } => "{name} needs a positive width and height";
-    LensModel { model: Number } => "lens model {model} distorts the ideal point: only models that correct the measured point (from 1) are supported";
-    Skew => "only a skew of 0 is supported";
-    CamerasNotTold { cameras: usize } => "cameras in the project: {cameras}; the photos do not name their camera";
-    Filter { text: String } => "a filter is keep or remove, not \"{text}\"";
-    DamagedXml { message: String } => "the XML is damaged: {message}";
-    XmlTooDeep { limit: usize } => "the XML is nested deeper than {limit} elements";
-    XmlEntity { name: String } => "the XML is damaged: unknown entity {name}";
-    XmlOpen { name: String } => "the XML is damaged: {name} is not closed";
-    XmlEmpty => "the XML is damaged: it is empty";
-    DamagedYaml { message: String } => "the YAML is damaged: {message}";
-    FormatUnrecognised => "the format of these files is not recognised: name it instead of \"auto\"";
-    ExpectedHere { expected: String, found: String } => "expected {expected}, found \"{found}\"";
-    EndsWhere { expected: String } => "the file ends where {expected} is expected";
-    NoSuchCameraModel { model: String } => "camera model {model} is not supported: calibrate with a perspective model (OpenCV, Brown) in the other program, or undistort the photos there";
-    ConversionFails { model: String } => "camera model {model} cannot be fitted in this region: give the region of the picture that is used";
-    ConversionTooLarge { max_px: Number } => "the camera models differ by up to {max_px} pixels: accept this with the option convert, or give the region of the picture that is used";
-    RegionShape => "a region must be a polygon of at least three different points in pixels";
-    CovarianceShape => "a covariance needs parameters of this camera, and a symmetric positive matrix with one row and column for each";
 
     // Film
     PitchMissing => "photo coordinates are in millimetres: give the camera a pixel pitch";
@@ -223,48 +261,7 @@ reasons! {
     RadiiUndetermined { terms: usize } => "the radii do not determine {terms} terms";
 
     // Networks on paper and pictures of them
-    Noise => "noise must be a standard deviation of 0 or more pixels";
-    Margin => "the margin must be a number of pixels";
-    Incidence => "the maximum incidence must be an angle in radians";
-    StationNotFinite => "position and roll of a station must be finite numbers";
-    StationAngles => "the angles of a station must be finite numbers";
-    StationDirection => "a station needs a rotation or a point to look at";
-    StationAim => "a station cannot look at itself";
-    Face { index: usize } => "face {index} is not a parallelogram with a finite grey level and a grain above 0";
-    Disc => "a target needs a finite centre, a direction and a diameter above 0";
     CodeRing => "a code ring has 2 to 24 sectors and no more bits than sectors";
-    Exposure => "an exposure needs a point spread from 0.3 to 10 pixels, vignetting and noise from 0 to 1 and 8 or 16 bits";
-
-    // Sheets to print
-    SheetNothing => "there is nothing to print: ask for codes, dots, scale bars or a calibration field";
-    SheetDiameter { value: Number } => "a dot of {value} mm cannot be printed: 0.5 to 400 mm are supported";
-    SheetRuler { value: Number, length: Number } => "the ruler of {length} mm measures {value}: a value between half and twice its length is expected";
-    SheetBar { value: Number } => "a scale bar of {value} mm: a length above 0 and up to a kilometre is expected";
-    SheetNumbers { text: String } => "\"{text}\" is not a list of numbers: write it as 1-20, 35";
-    SheetNumberUnknown { number: u32, family: usize } => "there is no code {number}: the family has the numbers 1 to {family}";
-    SheetTooManyCodes { wanted: usize, family: usize } => "{wanted} codes are wanted and the family has {family}: take fewer, or a family with more bits";
-    SheetTooManyTargets { limit: usize } => "these are more than {limit} targets: print them in parts";
-    SheetTooMany { limit: usize } => "these are more than {limit} sheets: print them in parts";
-    SheetNoRoom { value: Number, width: Number, height: Number } => "a dot of {value} mm with what belongs to it has no room on paper of {width} x {height} mm: take larger paper or smaller dots";
-    SheetAdvice => "principal distance, distances and diameter must be above 0, angles below 89°";
-
-    // Plans
-    PlanCamera => "a plan needs a camera";
-    FormTooMany { limit: usize } => "a form has at most {limit} targets: use fewer columns or rows";
-    PlanTooLarge { limit: usize } => "targets times photos exceed {limit}: plan a part of the object";
-    PlanLeastPixels => "the minimum target size must be a number of pixels from 0";
-    PlanWanted => "the required accuracy must be a length above 0, with a probability from 0.5 to 0.999";
-    PlanLens => "f-number, focused distance and circle of confusion must be above 0";
-    PlanNothingSeen => "no photo of this camera sees four targets: use larger targets, a longer lens or fewer places without access";
-
-    // Experiments
-    ImageNoise => "the standard deviation of image coordinates must be from 0.01 to 1000 µm";
-    PixelNoise => "the noise of the pixels must be a share from 0 to 0.2";
-    ControlSigma => "the standard error of control coordinates must be from 1e-6 to 1000 mm";
-    Rounds { limit: usize } => "at most {limit} rounds of Monte Carlo";
-
-    // The report
-    OtherAdjustment => "the result belongs to another state of the project: adjust again";
 
     // Arguments
     NotOfKind { name: String, expected: Expected } => "{name} is not {expected}";
@@ -311,10 +308,11 @@ impl fmt::Display for Names {
 }
 
 /// Declares a choice of words: a name, its word in JSON and its English.
-macro_rules! words {
+#[macro_export]
+macro_rules! declare_words {
     ($(#[$doc:meta])+ $enum:ident { $($name:ident = $json:literal => $english:literal;)+ }) => {
         $(#[$doc])+
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ::serde::Serialize, ::serde::Deserialize)]
         pub enum $enum {
             $(#[doc = $english] #[serde(rename = $json)] $name,)+
         }
@@ -336,8 +334,8 @@ macro_rules! words {
             }
         }
 
-        impl fmt::Display for $enum {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        impl ::std::fmt::Display for $enum {
+            fn fmt(&self, f: &mut ::std::fmt::Formatter<'_>) -> ::std::fmt::Result {
                 f.write_str(match self {
                     $(Self::$name => $english,)+
                 })
@@ -346,7 +344,7 @@ macro_rules! words {
     };
 }
 
-words! {
+declare_words! {
     /// A thing that has a name.
     Thing {
         Camera = "camera" => "camera";
@@ -372,8 +370,8 @@ words! {
     }
 }
 
-words! {
-    /// What is missing.
+declare_words! {
+    /// Kinds of items that can be missing.
     Lack {
         Photos = "photos" => "photos";
         Points = "points" => "points";
@@ -386,23 +384,7 @@ words! {
     }
 }
 
-words! {
-    /// A part of PhotoModeler's text export.
-    PhotoModelerPart {
-        Heading = "heading" => "heading";
-        Size = "picture size" => "picture size";
-        Weights = "weights" => "weights";
-        Camera = "camera" => "camera";
-        CameraSigmas = "camera sigmas" => "camera sigmas";
-        Photo = "photo" => "photo";
-        Exterior = "exterior orientation" => "exterior orientation";
-        ExteriorSigmas = "sigmas of the exterior orientation" => "sigmas of the exterior orientation";
-        PhotoCamera = "camera of the photo" => "camera of the photo";
-        PhotoCameraSigmas = "sigmas of the camera" => "sigmas of the camera";
-    }
-}
-
-words! {
+declare_words! {
     /// The expected kind of an argument.
     Expected {
         Object = "object" => "an object";
@@ -440,10 +422,9 @@ mod tests {
     #[test]
     fn reasons_travel_as_json() {
         for reason in [
-            Reason::NoVersion,
+            Reason::ImageSigma,
             Reason::NotANumber { name: "Y".into(), text: "zwei".into() },
             Reason::NotOfKind { name: "u".into(), expected: Expected::FiniteNumber },
-            Reason::PhotoModelerCut { part: PhotoModelerPart::ExteriorSigmas },
             Reason::NoSuchOption { name: "a".into(), known: Names(vec!["b".into(), "c".into()]) },
             Reason::AxisRatio { value: 1.5.into() },
             Reason::DiametersSwapped { min_diameter: 0.1.into(), max_diameter: (-0.3).into() },
@@ -454,13 +435,39 @@ mod tests {
         }
     }
 
-    /// What is no finite number is what such a sentence is about: it must not keep the sentence from being told.
+    /// What is no finite number is what such a sentence is about: it must not prevent the sentence from being written.
     #[test]
     fn numbers_that_json_has_not_travel_too() {
         let error = Error::Invalid { reason: Reason::Unmodelled { value: f64::NAN.into() }, at: Place::default() };
         let json = serde_json::to_string(&error).unwrap();
         assert_eq!(serde_json::from_str::<Error>(&json).unwrap().to_string(), error.to_string());
         assert!(error.to_string().contains("NaN"));
+    }
+
+    mod above {
+        crate::declare_reasons! {
+            /// Reasons of a crate above.
+            AboveReason {
+                Nothing => "there is nothing";
+                TooLarge2 { value: f64, limit: usize } => "{value} is more than {limit}";
+            }
+        }
+    }
+
+    /// The engine carries what it does not know: through JSON and back, told by the crate that declared it.
+    #[test]
+    fn reasons_of_crates_above_travel_too() {
+        use above::AboveReason;
+        for reason in [AboveReason::Nothing, AboveReason::TooLarge2 { value: 0.1, limit: 3 }] {
+            let error = Error::Invalid { reason: reason.clone().into(), at: Place::field("x") };
+            assert!(error.to_string().contains(&reason.to_string()), "{error}");
+            let json = serde_json::to_value(&error).unwrap();
+            assert_eq!(json["reason"], serde_json::to_value(&reason).unwrap(), "no field more, none less");
+            let again: Error = serde_json::from_value(json).unwrap();
+            assert_eq!(again, error);
+            assert_eq!(AboveReason::of_error(&again), Some(reason));
+        }
+        assert_eq!(AboveReason::of(&Reason::ImageSigma), None);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! A note is a TIFF directory in its maker's own way: with a head before it or none, its places counted from the EXIF block or from the
 //! note, in the block's byte order or its own. Only settings whose tag and values are publicly known (the tables of ExifTool) are read,
-//! and only what they say is told; phones straighten their pictures without a word of it in the file. Whatever does not fit is passed over.
+//! and only these notes are reported; phones correct distortion without a note in the file. Entries that do not fit are skipped.
 //!
 //! | maker | tags |
 //! | --- | --- |
@@ -16,7 +16,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is corrected.
+/// The quantity that is corrected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Aberration {
@@ -38,18 +38,18 @@ pub enum Setting {
     Off,
     /// It is made.
     On,
-    /// It is made where the camera knows the lens.
+    /// It is applied if the camera knows the lens.
     Auto,
 }
 
-/// A correction of the lens that a maker's note speaks of.
+/// A correction of the lens that a maker's note lists.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LensCorrection {
     /// Of what.
     pub aberration: Aberration,
     /// Whether the camera makes it in the pictures that it develops.
     pub setting: Setting,
-    /// Whose tag says so, as "Sony 0x2013".
+    /// The tag that states it, as "Sony 0x2013".
     pub tag: String,
 }
 
@@ -78,13 +78,13 @@ impl Maker {
     }
 }
 
-/// The corrections that the note at place `at` of an EXIF block speaks of, in the order of their tags; `little` is the block's byte order
+/// The corrections that the note at place `at` of an EXIF block lists, in the order of their tags; `little` is the block's byte order
 /// and `make` its maker.
 pub fn corrections(block: &[u8], at: usize, little: bool, make: &str) -> Vec<LensCorrection> {
     let Some((maker, note, directory)) = opened(block, at, little, make) else { return Vec::new() };
     let mut all = Vec::new();
     for entry in note.entries(directory) {
-        for (aberration, setting) in told(maker, &note, &entry) {
+        for (aberration, setting) in corrections_of_entry(maker, &note, &entry) {
             all.push(LensCorrection { aberration, setting, tag: format!("{} {:#06x}", maker.name(), entry.tag) });
         }
         if maker == Maker::Olympus && [0x2020, 0x2040].contains(&entry.tag) {
@@ -109,8 +109,8 @@ pub fn corrections(block: &[u8], at: usize, little: bool, make: &str) -> Vec<Len
     all
 }
 
-/// What one entry says.
-fn told(maker: Maker, note: &Note, entry: &Entry) -> Vec<(Aberration, Setting)> {
+/// Content of one entry.
+fn corrections_of_entry(maker: Maker, note: &NoteBlock, entry: &MakerEntry) -> Vec<(Aberration, Setting)> {
     use Aberration::{Diffraction, Distortion, LateralColour, Vignetting};
     let number = |k: usize| note.number(entry, k);
     let each = |list: &[(Aberration, Option<Setting>)]| {
@@ -165,11 +165,11 @@ fn switch(value: Option<u32>) -> Option<Setting> {
 }
 
 /// Whose note it is, how its places are counted and where its directory begins.
-fn opened<'a>(block: &'a [u8], at: usize, little: bool, make: &str) -> Option<(Maker, Note<'a>, usize)> {
+fn opened<'a>(block: &'a [u8], at: usize, little: bool, make: &str) -> Option<(Maker, NoteBlock<'a>, usize)> {
     let head = block.get(at..)?;
     let begins = |text: &[u8]| head.starts_with(text);
     let make = make.to_uppercase();
-    let note = |little: bool, base: usize| Note { block, base, little };
+    let note = |little: bool, base: usize| NoteBlock { block, base, little };
     let order = |place: usize| match block.get(at + place..at + place + 2)? {
         b"II" => Some(true),
         b"MM" => Some(false),
@@ -206,15 +206,15 @@ fn opened<'a>(block: &'a [u8], at: usize, little: bool, make: &str) -> Option<(M
     })
 }
 
-/// A block of bytes with the way in which a note counts its places.
-struct Note<'a> {
+/// A maker note with its byte order and the origin of its offsets.
+struct NoteBlock<'a> {
     block: &'a [u8],
     base: usize,
     little: bool,
 }
 
 /// One entry of a directory.
-struct Entry {
+struct MakerEntry {
     tag: u16,
     kind: u16,
     count: usize,
@@ -222,7 +222,7 @@ struct Entry {
     place: usize,
 }
 
-impl Entry {
+impl MakerEntry {
     /// Bytes of a value.
     fn width(&self) -> usize {
         match self.kind {
@@ -234,7 +234,7 @@ impl Entry {
     }
 }
 
-impl Note<'_> {
+impl NoteBlock<'_> {
     fn bytes(&self, place: usize, width: usize) -> Option<u32> {
         let bytes = self.block.get(place..place.checked_add(width)?)?;
         let add = |sum: u32, byte: &u8| sum << 8 | u32::from(*byte);
@@ -246,12 +246,12 @@ impl Note<'_> {
     }
 
     /// The entries of the directory at a place, those alone whose values are in the block.
-    fn entries(&self, place: usize) -> Vec<Entry> {
+    fn entries(&self, place: usize) -> Vec<MakerEntry> {
         let count = self.bytes(place, 2).unwrap_or(0).min(1000) as usize;
         let entry = |k: usize| {
             let at = place + 2 + 12 * k;
             let (tag, kind) = (self.bytes(at, 2)? as u16, self.bytes(at + 2, 2)? as u16);
-            let mut entry = Entry { tag, kind, count: self.long(at + 4)? as usize, place: at + 8 };
+            let mut entry = MakerEntry { tag, kind, count: self.long(at + 4)? as usize, place: at + 8 };
             let size = entry.width().checked_mul(entry.count)?;
             if size > 4 {
                 entry.place = self.base.checked_add(self.long(at + 8)? as usize)?;
@@ -262,7 +262,7 @@ impl Note<'_> {
     }
 
     /// A whole number of an entry.
-    fn number(&self, entry: &Entry, k: usize) -> Option<u32> {
+    fn number(&self, entry: &MakerEntry, k: usize) -> Option<u32> {
         let width = entry.width();
         (k < entry.count && width <= 4).then(|| self.bytes(entry.place + k * width, width)).flatten()
     }

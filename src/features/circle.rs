@@ -1,9 +1,10 @@
-//! A circle in space: a point's distance has a part out of the plane, h = n·(x - c), and one within, |x - c - h n| - r; both are
-//! made least together. Initial values in the plane of the points, by the linear equation |x|² = 2c·x + (r² - |c|²).
+//! A circle in space. The distance of a point has a part perpendicular to the plane, h = n·(x - c), and a part in the plane,
+//! |x - c - h n| - r; the sum of squares of both is minimised. Initial values in the plane of the points, by the linear equation
+//! |x|² = 2c·x + (r² - |c|²).
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::form::{Form, MOST, Motion, Row, Second};
+use super::form::{AxisMotion, GeometricForm, LinearisedDistance, MOST, Second};
 use super::linear::{across, axis_of};
 
 /// Centre, unit normal, radius.
@@ -15,7 +16,8 @@ pub struct Circle {
 }
 
 impl Circle {
-    /// In the plane through 0 with this normal; none where the points lie on a line. Points are about 0 and of size 1.
+    /// Initial circle in the plane through 0 with this normal; `None` if the points lie on a line. The points are centred at 0 and scaled
+    /// to size 1.
     pub fn initial(points: &[Vector3<f64>], normal: &Vector3<f64>) -> Option<Self> {
         let [e, f] = across(normal);
         let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
@@ -32,11 +34,11 @@ impl Circle {
     }
 }
 
-impl Form for Circle {
-    /// Centre, two turns, radius.
+impl GeometricForm for Circle {
+    /// Shift of the centre (3), rotations of the normal (2), change of the radius.
     const PARAMETERS: usize = 6;
 
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance> {
         let [e, f] = across(&self.normal);
         let n = self.normal;
         let rows = points.iter().enumerate().flat_map(|(point, x)| {
@@ -47,8 +49,13 @@ impl Form for Circle {
             let outwards = if length > 0.0 { within / length } else { e };
             let o = outwards;
             [
-                Row { point, distance: height, by_form: [-n.x, -n.y, -n.z, e.dot(&v), f.dot(&v), 0.0], by_point: n },
-                Row {
+                LinearisedDistance {
+                    point,
+                    distance: height,
+                    by_form: [-n.x, -n.y, -n.z, e.dot(&v), f.dot(&v), 0.0],
+                    by_point: n,
+                },
+                LinearisedDistance {
                     point,
                     distance: length - self.radius,
                     by_form: [-o.x, -o.y, -o.z, -height * o.dot(&e), -height * o.dot(&f), -1.0],
@@ -62,8 +69,8 @@ impl Form for Circle {
     fn second(&self, point: &Vector3<f64>) -> Second {
         let v = point - self.centre;
         let [e, f] = across(&self.normal);
-        let shift = |axis| Motion { shift: axis_of(axis), ..Motion::default() };
-        let turn = |turn| Motion { turn, ..Motion::default() };
+        let shift = |axis| AxisMotion { shift: axis_of(axis), ..AxisMotion::default() };
+        let turn = |turn| AxisMotion { turn, ..AxisMotion::default() };
         let motions = [shift(0), shift(1), shift(2), turn(e), turn(f)];
         let height = self.normal.dot(&v);
         let mut second = Second::zeros();
@@ -89,7 +96,7 @@ impl Form for Circle {
         let v = point - self.centre;
         let height = self.normal.dot(&v);
         let within = (v - height * self.normal).norm() - self.radius;
-        // Outside is positive: of a point off the plane, where it is nearer to the outside.
+        // Positive outside the circle; for a point off the plane the sign is that of its in-plane part.
         height.hypot(within).copysign(if within < 0.0 { -1.0 } else { 1.0 })
     }
 }

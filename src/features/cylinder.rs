@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use super::circle::Circle;
-use super::form::{Form, MOST, Row, Second};
+use super::form::{GeometricForm, LinearisedDistance, MOST, Second};
 use super::line::Line;
 use super::linear::across;
 
@@ -51,11 +51,11 @@ impl Cylinder {
     }
 }
 
-impl Form for Cylinder {
+impl GeometricForm for Cylinder {
     /// Two shifts across the axis, two turns, radius.
     const PARAMETERS: usize = 5;
 
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance> {
         let Line { position, direction } = &self.axis;
         let [e, f] = across(direction);
         let row = |(point, x): (usize, &Vector3<f64>)| {
@@ -66,7 +66,7 @@ impl Form for Cylinder {
             let outwards = if length > 0.0 { across / length } else { e };
             let (oe, of) = (outwards.dot(&e), outwards.dot(&f));
             let by_form = [-oe, -of, -along * oe, -along * of, -1.0, 0.0];
-            Row { point, distance: length - self.radius, by_form, by_point: outwards }
+            LinearisedDistance { point, distance: length - self.radius, by_form, by_point: outwards }
         };
         points.iter().enumerate().map(row).collect()
     }

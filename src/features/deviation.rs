@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::form::{Fitted, Shape};
 use super::linear::{Function, Vector, sum};
 
-/// The distance, positive outside or on the side of the normal, and what it depends on; none where it has no derivative: of a point
+/// The distance, positive outside or on the side of the normal, and what it depends on; `None` if it has no derivative: of a point
 /// on a line, or on a circle.
 pub fn deviation(form: &Fitted, point: usize, x: &Vector3<f64>) -> (f64, Option<Function>) {
     let v = x - form.position.value;

@@ -4,12 +4,12 @@ use nalgebra::{Matrix6, Vector3};
 
 use super::linear::{Function, Vector};
 
-/// Most parameters of a form.
+/// Maximum number of parameters of a form.
 pub const MOST: usize = 6;
 
 /// Distance of a point from a form, linearised.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct LinearisedDistance {
     /// Number of the point in the list that is fitted.
     pub point: usize,
     /// Distance, or one of its components.
@@ -32,7 +32,7 @@ pub struct Second {
 
 /// How a parameter of a form about an axis moves it: the axis by `shift`, its direction by `turn` across it.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Motion {
+pub struct AxisMotion {
     /// Of the position.
     pub shift: Vector3<f64>,
     /// Of the direction.
@@ -48,7 +48,7 @@ impl Second {
     /// Of d = |u| - r, u the part of v = x - p across the axis a. With o = u/|u|, m across a and o, s = a·v, and for every
     /// parameter q = shift across a + s·turn, τ = a·shift:
     /// ∂²d = (m·q)(m·q')/|u| - |u|(o·turn)(o·turn') + τ(o·turn') + τ'(o·turn); a point moves like a shift the other way.
-    pub fn add_across(&mut self, distance: f64, v: &Vector3<f64>, a: &Vector3<f64>, motions: &[Motion]) {
+    pub fn add_across(&mut self, distance: f64, v: &Vector3<f64>, a: &Vector3<f64>, motions: &[AxisMotion]) {
         let s = a.dot(v);
         let u = v - s * a;
         let length = u.norm();
@@ -70,7 +70,7 @@ impl Second {
     }
 
     /// Of the height h = a·(x - p): ∂²h = -turn·shift' - turn'·shift - h turn·turn'.
-    pub fn add_height(&mut self, height: f64, motions: &[Motion]) {
+    pub fn add_height(&mut self, height: f64, motions: &[AxisMotion]) {
         for (k, one) in motions.iter().enumerate() {
             self.by_point[k] += height * one.turn;
             for (l, other) in motions.iter().enumerate() {
@@ -82,12 +82,12 @@ impl Second {
 }
 
 /// A form that is fitted to points. Its parameters are small changes of the present form, so that no attitude is singular.
-pub trait Form: Clone {
+pub trait GeometricForm: Clone {
     /// Number of parameters.
     const PARAMETERS: usize;
     /// Linearised distances of the points, one row or two a point.
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row>;
-    /// What the second derivatives of a point's distances add.
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance>;
+    /// Contribution of the second derivatives of a point's distances.
     fn second(&self, point: &Vector3<f64>) -> Second;
     /// The form after a step.
     fn moved(&self, step: &[f64; MOST]) -> Self;
@@ -106,7 +106,7 @@ pub struct Fitted {
     pub direction: Option<Vector>,
     /// Radius.
     pub radius: Option<(f64, Function)>,
-    /// What distances from it mean.
+    /// Meaning of distances from it.
     pub shape: Shape,
     /// Signed distances of its own points, in their order.
     pub residuals: Vec<f64>,
@@ -153,12 +153,12 @@ mod tests {
 
     const H: f64 = 1e-4;
 
-    fn cost<F: Form>(form: &F, x: &Vector3<f64>) -> f64 {
+    fn cost<F: GeometricForm>(form: &F, x: &Vector3<f64>) -> f64 {
         form.rows(&[*x]).iter().map(|row| row.distance * row.distance / 2.0).sum()
     }
 
     /// Half the squared distance by difference quotients against its derivatives: of the form, and of form and point.
-    fn check<F: Form>(form: &F, x: &Vector3<f64>, name: &str) {
+    fn check<F: GeometricForm>(form: &F, x: &Vector3<f64>, name: &str) {
         let (rows, second) = (form.rows(&[*x]), form.second(x));
         let size = 1.0 + x.norm_squared();
         let moved = |steps: &[(usize, f64)]| {

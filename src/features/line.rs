@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::form::{Form, MOST, Motion, Row, Second};
+use super::form::{AxisMotion, GeometricForm, LinearisedDistance, MOST, Second};
 use super::linear::across;
 
 /// A point of the line and its unit direction.
@@ -19,19 +19,19 @@ impl Line {
     }
 
     /// Of its parameters.
-    pub fn motions(&self) -> [Motion; 4] {
+    pub fn motions(&self) -> [AxisMotion; 4] {
         let [e, f] = across(&self.direction);
-        let shift = |shift| Motion { shift, ..Motion::default() };
-        let turn = |turn| Motion { turn, ..Motion::default() };
+        let shift = |shift| AxisMotion { shift, ..AxisMotion::default() };
+        let turn = |turn| AxisMotion { turn, ..AxisMotion::default() };
         [shift(e), shift(f), turn(e), turn(f)]
     }
 }
 
-impl Form for Line {
+impl GeometricForm for Line {
     /// Two shifts across, two turns.
     const PARAMETERS: usize = 4;
 
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance> {
         let sides = across(&self.direction);
         let rows = points.iter().enumerate().flat_map(|(point, x)| {
             let v = x - self.position;
@@ -39,7 +39,7 @@ impl Form for Line {
             (0..2).map(move |k| {
                 let mut by_form = [0.0; MOST];
                 (by_form[k], by_form[2 + k]) = (-1.0, -along);
-                Row { point, distance: sides[k].dot(&v), by_form, by_point: sides[k] }
+                LinearisedDistance { point, distance: sides[k].dot(&v), by_form, by_point: sides[k] }
             })
         });
         rows.collect()

@@ -1,4 +1,4 @@
-//! Functions of points by their derivatives, and their covariances.
+//! Linearised functions of points and their covariances.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use crate::error::Result;
 
-/// Derivative of a figure by the points it depends on: number of the point, derivative by X, Y, Z.
+/// Derivatives of a quantity with respect to the points that it depends on: index of the point, derivatives by X, Y, Z.
 pub type Function = Vec<(usize, Vector3<f64>)>;
 
-/// Covariance of each function with each point: what the adjustment is asked for. None without statistics.
+/// Computes the covariances of each function with each point, from the adjustment; `None` without statistics.
 pub type Carry<'a> = &'a mut dyn FnMut(&[Function]) -> Result<Option<Vec<Vec<Vector3<f64>>>>>;
 
 /// Σ factor · function.
@@ -47,17 +47,17 @@ pub fn axis_of(axis: usize) -> Vector3<f64> {
     Vector3::from_fn(|k, _| if k == axis { 1.0 } else { 0.0 })
 }
 
-/// Covariance of a function with another whose carried form is given.
-pub fn covariance(function: &Function, carried: &[Vector3<f64>]) -> f64 {
-    function.iter().map(|(point, by)| by.dot(&carried[*point])).sum()
+/// Covariance of a function with another one, of which the covariances with all points are given (see [`Carry`]).
+pub fn covariance(function: &Function, with_points: &[Vector3<f64>]) -> f64 {
+    function.iter().map(|(point, by)| by.dot(&with_points[*point])).sum()
 }
 
-/// Standard error from a variance, 0 where rounding made it negative.
+/// Standard error from a variance; 0 if rounding made the variance negative.
 pub fn root(variance: f64) -> f64 {
     variance.max(0.0).sqrt()
 }
 
-/// Two unit vectors that make a right-handed system with a unit vector.
+/// Two unit vectors that form a right-handed system with the unit vector `n`: (first, second, n).
 pub fn across(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let least = (0..3).min_by(|a, b| n[*a].abs().total_cmp(&n[*b].abs())).unwrap_or(0);
     let first = n.cross(&axis_of(least)).normalize();

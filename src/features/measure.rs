@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Vector3};
 use super::circle::Circle;
 use super::cylinder::Cylinder;
 use super::deviation::deviation;
-use super::form::{Fitted, Form, Shape};
+use super::form::{Fitted, GeometricForm, Shape};
 use super::line::Line;
 use super::linear::{Carry, Function, Vector, across, covariance, root, sum};
 use super::plane::Plane;
@@ -18,7 +18,7 @@ use super::sphere::Sphere;
 use super::system;
 use crate::adjustment::{AdjustedPhoto, AdjustedPoint, FeatureResidual, Measured, MeasuredFeature, Quantity};
 use crate::error::{Error, Place, Reason, Result};
-use crate::initial::Spread;
+use crate::initial::PrincipalAxes;
 use crate::project::{End, Feature, FeatureKind, Project};
 
 /// Standard errors follow from first derivatives. Of a form whose radius has a larger part of itself as its standard error, or whose
@@ -78,10 +78,10 @@ struct Pending {
     functions: Vec<(Figure, Function)>,
 }
 
-/// Measures everything that the document asks for.
+/// Measures all features of the document.
 ///
 /// # Errors
-/// Those of `carry`; what cannot be measured is told by its own result.
+/// Those of `carry`; features that cannot be measured are reported in their own result.
 pub fn measure(
     project: &Project,
     points: &[AdjustedPoint],
@@ -105,7 +105,7 @@ pub fn measure(
     Ok(Measured { features, systems: systems.collect::<Result<_>>()? })
 }
 
-/// Share of the points' extent (twice the largest distance from their centroid) above which their rms distance from a form is said: without it a plane through the corners of a box is
+/// Share of the points' extent (twice the largest distance from their centroid) above which their rms distance from a form is reported: without it a plane through the corners of a box is
 /// given out as measured. Flat parts that are bent stay well below.
 const MISFIT: f64 = 0.02;
 
@@ -318,7 +318,7 @@ fn form(kind: &FeatureKind, points: &Points) -> Result<Fitted> {
 /// Fitted about the points' centroid and by their extent, so that no coordinates cost digits.
 pub fn fitted(kind: &FeatureKind, places: &[Vector3<f64>], numbers: &[usize]) -> Result<Fitted> {
     let undetermined = || refused(Reason::FeatureUndetermined);
-    let spread = Spread::of(places).map_err(|_| undetermined())?;
+    let spread = PrincipalAxes::of(places).map_err(|_| undetermined())?;
     let size = spread.extent.norm();
     let line = matches!(kind, FeatureKind::Line { .. });
     if !(size > 0.0) || (!line && spread.is_line()) {
@@ -379,7 +379,7 @@ struct Back<'a> {
 }
 
 impl Back<'_> {
-    fn fitted<F: Form>(
+    fn fitted<F: GeometricForm>(
         &self,
         fit: &Regression<F>,
         shape: Shape,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::project::GivenPoint;
 
-/// What a comparison with given coordinates found.
+/// Result of a comparison with given coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Renaming {
     /// Present name, given name, distance.

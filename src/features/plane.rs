@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::form::{Form, MOST, Motion, Row, Second};
+use super::form::{AxisMotion, GeometricForm, LinearisedDistance, MOST, Second};
 use super::linear::across;
 
 /// A point of the plane and its unit normal.
@@ -12,26 +12,26 @@ pub struct Plane {
     pub normal: Vector3<f64>,
 }
 
-impl Form for Plane {
+impl GeometricForm for Plane {
     /// Shift along the normal, two turns.
     const PARAMETERS: usize = 3;
 
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance> {
         let [e, f] = across(&self.normal);
         let row = |(point, x): (usize, &Vector3<f64>)| {
             let v = x - self.position;
             let mut by_form = [0.0; MOST];
             by_form[..3].copy_from_slice(&[-1.0, e.dot(&v), f.dot(&v)]);
-            Row { point, distance: self.normal.dot(&v), by_form, by_point: self.normal }
+            LinearisedDistance { point, distance: self.normal.dot(&v), by_form, by_point: self.normal }
         };
         points.iter().enumerate().map(row).collect()
     }
 
     fn second(&self, point: &Vector3<f64>) -> Second {
         let [e, f] = across(&self.normal);
-        let turn = |turn| Motion { turn, ..Motion::default() };
+        let turn = |turn| AxisMotion { turn, ..AxisMotion::default() };
         let mut second = Second::zeros();
-        let motions = [Motion { shift: self.normal, ..Motion::default() }, turn(e), turn(f)];
+        let motions = [AxisMotion { shift: self.normal, ..AxisMotion::default() }, turn(e), turn(f)];
         second.add_height(self.distance(point), &motions);
         second
     }

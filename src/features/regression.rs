@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix6, Vector3, Vector6};
 
-use super::form::{Form, MOST};
+use super::form::{GeometricForm, MOST};
 use super::linear::Function;
 use crate::error::{Error, Result};
 use crate::error::{Place, Reason};
@@ -42,9 +42,9 @@ const DETERMINED: f64 = 1e-11;
 /// Fits a form from its initial values; `numbers` are the points' numbers for the derivatives. Points are about 0 and of size 1.
 ///
 /// # Errors
-/// [`Reason::FeatureUndetermined`] where the points do not determine the form, [`Reason::FeatureUnsettled`] where the steps come to
+/// [`Reason::FeatureUndetermined`] if the points do not determine the form, [`Reason::FeatureUnsettled`] if the steps come to
 /// no end.
-pub fn fit<F: Form>(
+pub fn fit<F: GeometricForm>(
     initial: F,
     points: &[Vector3<f64>],
     numbers: &[usize],
@@ -117,7 +117,9 @@ pub fn fit<F: Form>(
 ///
 /// # Errors
 /// That of the fit that came lowest, where it came to no form; [`Reason::FeatureUndetermined`] without any.
-pub fn best<F: Form>(fits: impl Iterator<Item = std::result::Result<Regression<F>, Failure>>) -> Result<Regression<F>> {
+pub fn best<F: GeometricForm>(
+    fits: impl Iterator<Item = std::result::Result<Regression<F>, Failure>>,
+) -> Result<Regression<F>> {
     let cost = |fit: &std::result::Result<Regression<F>, Failure>| match fit {
         Ok(fit) => fit.cost,
         Err(failure) => failure.cost,
@@ -139,7 +141,7 @@ struct Equations {
     cost: f64,
 }
 
-fn equations<F: Form>(form: &F, points: &[Vector3<f64>], n: usize) -> Equations {
+fn equations<F: GeometricForm>(form: &F, points: &[Vector3<f64>], n: usize) -> Equations {
     let zeros = Matrix6::zeros();
     let mut sum = Equations { gauss: zeros, second: zeros, right: Vector6::zeros(), cost: 0.0 };
     for row in form.rows(points) {

@@ -9,17 +9,17 @@ use crate::error::{Error, Place, Reason, Result};
 /// Directions that differ by less are parallel, as far as the distance of two lines goes: where they come closest is chance then.
 const PARALLEL: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
-/// A distance with what it depends on and where it is drawn.
-pub struct Distance {
+/// A distance between features, with its derivatives and end points.
+pub struct FeatureDistance {
     pub value: f64,
-    /// None where it is exactly 0.
+    /// `None` if it is exactly 0.
     pub by: Option<Function>,
     pub ends: [Vector3<f64>; 2],
 }
 
 /// Distance between two ends. Of two planes: of the second's centroid from the first; of a line or axis and a plane: of the
 /// line's centroid; of lines that are parallel within 5°: of the second's centroid.
-pub fn distance(from: &Fitted, to: &Fitted) -> Distance {
+pub fn distance(from: &Fitted, to: &Fitted) -> FeatureDistance {
     let (a, b) = (from.shape, to.shape);
     match (a, b) {
         _ if a.is_place() && b.is_place() => between(&from.position, &to.position),
@@ -31,37 +31,37 @@ pub fn distance(from: &Fitted, to: &Fitted) -> Distance {
     }
 }
 
-impl Distance {
+impl FeatureDistance {
     fn turned(self) -> Self {
         let [a, b] = self.ends;
         Self { ends: [b, a], ..self }
     }
 }
 
-fn between(p: &Vector, q: &Vector) -> Distance {
+fn between(p: &Vector, q: &Vector) -> FeatureDistance {
     let v = q.value - p.value;
     let length = v.norm();
     let by = (length > 0.0).then(|| {
         let e = v / length;
         sum([(1.0, &q.along(&e)), (-1.0, &p.along(&e))])
     });
-    Distance { value: length, by, ends: [p.value, q.value] }
+    FeatureDistance { value: length, by, ends: [p.value, q.value] }
 }
 
 fn direction(form: &Fitted) -> Vector {
     form.direction.clone().unwrap_or_default()
 }
 
-fn from_plane(plane: &Fitted, place: &Vector) -> Distance {
+fn from_plane(plane: &Fitted, place: &Vector) -> FeatureDistance {
     let n = direction(plane);
     let v = place.value - plane.position.value;
     let height = n.value.dot(&v);
     let sign = if height < 0.0 { -1.0 } else { 1.0 };
     let by = sum([(sign, &place.along(&n.value)), (-sign, &plane.position.along(&n.value)), (sign, &n.along(&v))]);
-    Distance { value: height.abs(), by: Some(by), ends: [place.value - height * n.value, place.value] }
+    FeatureDistance { value: height.abs(), by: Some(by), ends: [place.value - height * n.value, place.value] }
 }
 
-fn from_axis(axis: &Fitted, place: &Vector) -> Distance {
+fn from_axis(axis: &Fitted, place: &Vector) -> FeatureDistance {
     let a = direction(axis);
     let v = place.value - axis.position.value;
     let along = a.value.dot(&v);
@@ -71,11 +71,11 @@ fn from_axis(axis: &Fitted, place: &Vector) -> Distance {
         let e = across / length;
         sum([(1.0, &place.along(&e)), (-1.0, &axis.position.along(&e)), (-along, &a.along(&e))])
     });
-    Distance { value: length, by, ends: [place.value - across, place.value] }
+    FeatureDistance { value: length, by, ends: [place.value - across, place.value] }
 }
 
 /// d m = (q + t b) - (p + s a) with m across both; the feet s and t have no part in the first order.
-fn between_axes(from: &Fitted, to: &Fitted) -> Distance {
+fn between_axes(from: &Fitted, to: &Fitted) -> FeatureDistance {
     let (a, b) = (direction(from), direction(to));
     let m = a.value.cross(&b.value);
     if m.norm() < PARALLEL.sin() {
@@ -96,13 +96,13 @@ fn between_axes(from: &Fitted, to: &Fitted) -> Distance {
         (-sign * s, &a.along(&m)),
     ]);
     let ends = [from.position.value + s * a.value, to.position.value + t * b.value];
-    Distance { value: height.abs(), by: Some(by), ends }
+    FeatureDistance { value: height.abs(), by: Some(by), ends }
 }
 
 /// Angle at a place between two others, 0 to π; radians, with what it depends on, none at 0 and π.
 ///
 /// # Errors
-/// [`Reason::FeatureUndetermined`] where two of the places are one.
+/// [`Reason::FeatureUndetermined`] if two of the places are one.
 pub fn angle_at(at: &Fitted, from: &Fitted, to: &Fitted) -> Result<(f64, Option<Function>)> {
     let side = |end: &Fitted| {
         let by = std::array::from_fn(|k| sum([(1.0, &end.position.by[k]), (-1.0, &at.position.by[k])]));
@@ -118,7 +118,7 @@ pub fn angle_at(at: &Fitted, from: &Fitted, to: &Fitted) -> Result<(f64, Option<
 /// Angle between two directions, 0 to π/2.
 ///
 /// # Errors
-/// [`Reason::FeatureNoDirection`] where one has none.
+/// [`Reason::FeatureNoDirection`] if one has none.
 pub fn angle(from: &Fitted, to: &Fitted) -> Result<(f64, Option<Function>)> {
     let (Some(u), Some(w)) = (&from.direction, &to.direction) else {
         return Err(Error::Invalid { reason: Reason::FeatureNoDirection, at: Place::default() });

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
-use super::form::{Form, MOST, Row, Second};
+use super::form::{GeometricForm, LinearisedDistance, MOST, Second};
 
 /// Centre and radius.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// Of least squared algebraic distances; none where the points lie in a plane. Points are about 0 and of size 1.
+    /// Of least squared algebraic distances; `None` if the points lie in a plane. Points are about 0 and of size 1.
     pub fn initial(points: &[Vector3<f64>]) -> Option<Self> {
         let (mut normal, mut right) = (Matrix4::zeros(), Vector4::zeros());
         for x in points {
@@ -27,11 +27,11 @@ impl Sphere {
     }
 }
 
-impl Form for Sphere {
+impl GeometricForm for Sphere {
     /// Centre, radius.
     const PARAMETERS: usize = 4;
 
-    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<LinearisedDistance> {
         let row = |(point, x): (usize, &Vector3<f64>)| {
             let v = x - self.centre;
             let length = v.norm();
@@ -39,7 +39,7 @@ impl Form for Sphere {
             let outwards = if length > 0.0 { v / length } else { Vector3::z() };
             let mut by_form = [0.0; MOST];
             by_form[..4].copy_from_slice(&[-outwards.x, -outwards.y, -outwards.z, -1.0]);
-            Row { point, distance: length - self.radius, by_form, by_point: outwards }
+            LinearisedDistance { point, distance: length - self.radius, by_form, by_point: outwards }
         };
         points.iter().enumerate().map(row).collect()
     }

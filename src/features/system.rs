@@ -16,7 +16,7 @@ use super::linear::{Carry, Function, Vector, covariance, root, sum};
 use super::measure::{Points, fitted};
 use crate::adjustment::{AdjustedPhoto, FeatureResidual, MeasuredSystem, SystemPoint};
 use crate::error::{Error, Place, Reason, Result};
-use crate::initial::{Spread, similarity};
+use crate::initial::{PrincipalAxes, similarity};
 use crate::project::{CoordinateSystem, FeatureKind, GivenPoint, SystemKind};
 
 /// Extents of a plane set that differ by less tell no longer side.
@@ -91,7 +91,7 @@ fn automatic(chosen: &[String], points: &Points, photos: &[AdjustedPhoto]) -> Re
     let (plane, numbers) = form(&FeatureKind::Plane { points: ids }, 3, points)?;
     let z = towards_photos(&plane, photos);
     let places: Vec<Vector3<f64>> = numbers.iter().map(|k| points.at(*k)).collect();
-    let spread = Spread::of(&places).map_err(|_| refused(Reason::FeatureUndetermined))?;
+    let spread = PrincipalAxes::of(&places).map_err(|_| refused(Reason::FeatureUndetermined))?;
     let elongated = spread.extent[0] > ROUND * spread.extent[1];
     // A round object has no longer side: its X is the adjustment's as far as the plane allows, or its Y.
     let along = if elongated {
@@ -158,7 +158,7 @@ fn best_fit(given: &[GivenPoint], scaled: bool, points: &Points, result: &mut Me
     let to: Vec<Vector3<f64>> = pairs.iter().map(|(_, g)| g.xyz.into()).collect();
     let start = similarity::fit(&from, &to).map_err(|_| refused(Reason::FeatureUndetermined))?.transform;
     let centre = start.source_centroid;
-    let size = Spread::of(&to).map_or(1.0, |s| s.extent.norm());
+    let size = PrincipalAxes::of(&to).map_or(1.0, |s| s.extent.norm());
     let (mut rotation, mut shift) = (start.rotation, start.target_centroid);
     let mut scale = if scaled { start.scale } else { 1.0 };
     let count = if scaled { PARAMETERS } else { PARAMETERS - 1 };

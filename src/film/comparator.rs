@@ -75,7 +75,7 @@ const LARGEST: f64 = 1e9;
 /// Readings of any number of photos of one camera as observations.
 ///
 /// # Errors
-/// [`Error::Invalid`] when a photo's fiducial marks do not determine the transformation, the camera has no pixel pitch
+/// [`Error::Invalid`] if a photo's fiducial marks do not determine the transformation, the camera has no pixel pitch
 /// or sigma is not above 0 or beyond all measure; [`Error::Duplicate`] for a mark or point read twice in a photo.
 pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Result<Observed> {
     if camera.pixel_pitch.is_none() {

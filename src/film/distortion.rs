@@ -19,7 +19,7 @@ pub struct OddPolynomial {
     pub coefficients: Vec<Coefficient>,
     /// Polynomial minus table.
     pub residuals: Vec<f64>,
-    /// Standard error of a table value; none without redundancy.
+    /// Standard error of a table value; `None` without redundancy.
     pub sigma0: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ impl OddPolynomial {
 /// changes the principal distance the distortion refers to.
 ///
 /// # Errors
-/// [`Error::Invalid`] when the lists differ in length, are shorter than the number of terms, hold numbers that are not
+/// [`Error::Invalid`] if the lists differ in length, are shorter than the number of terms, hold numbers that are not
 /// finite, or do not determine the terms.
 pub fn fit(radii: &[f64], distortions: &[f64], terms: usize, linear: bool) -> Result<OddPolynomial> {
     let invalid = |reason| Err(Error::Invalid { reason, at: Place::field("distortion") });

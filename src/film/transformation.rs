@@ -6,8 +6,8 @@
 //! projective   x' = (a0 + a1 x + a2 y) / (1 + c1 x + c2 y)   y' = (b0 + b1 x + b2 y) / (…)    8
 //! ```
 //!
-//! Least squares of the differences in the target system. Coordinates are taken from the centroid and scaled inside, so
-//! that the origin of the machine plays no part. Source: Kang and Yeu (1985), figure 3-3 (affine); Wolf (1983).
+//! The squared differences in the target system are minimised. Coordinates are reduced to the centroid and scaled, so that the origin of
+//! the comparator has no effect. Source: Kang and Yeu (1985), figure 3-3 (affine); Wolf (1983).
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -18,9 +18,9 @@ use crate::error::{Error, Place, Reason, Result};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// Shift, turn and one scale.
+    /// Shift, rotation and one scale.
     Similarity,
-    /// Shift, turn, two scales and a shear: film shrinks differently along and across.
+    /// Shift, rotation, two scales and a shear: film shrinks differently along and across.
     #[default]
     Affine,
     /// Perspective.
@@ -47,13 +47,13 @@ pub struct Transformation {
     pub residuals: Vec<[f64; 2]>,
     /// 2n - parameters.
     pub redundancy: usize,
-    /// Standard error of a coordinate, √(Σv²/redundancy); none without redundancy.
+    /// Standard error of a coordinate, √(Σv²/redundancy); `None` without redundancy.
     pub sigma0: Option<f64>,
-    /// Rows of the 3 x 3 matrix that carries homogeneous machine coordinates onto target coordinates.
+    /// Rows of the 3 x 3 matrix that transforms homogeneous comparator coordinates into target coordinates.
     pub matrix: [[f64; 3]; 3],
-    /// Parameters in the machine's own coordinates, by name.
+    /// Parameters for comparator coordinates, by name.
     pub parameters: Vec<Coefficient>,
-    /// Machine coordinates of the centroid that the parameters refer to.
+    /// Comparator coordinates of the centroid to which the parameters refer.
     pub origin: [f64; 2],
 }
 
@@ -62,14 +62,14 @@ pub struct Transformation {
 pub struct Coefficient {
     /// Name in the equations of the module.
     pub name: String,
-    /// Value, for machine coordinates counted from the centroid of the marks.
+    /// Value, for comparator coordinates relative to the centroid of the marks.
     pub value: f64,
-    /// Standard error; none without redundancy.
+    /// Standard error; `None` without redundancy.
     pub sigma: Option<f64>,
 }
 
 impl Transformation {
-    /// A measured point in the target system; none on the horizon of a projective transformation.
+    /// A measured point in the target system; `None` on the vanishing line of a projective transformation.
     pub fn apply(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let row = |r: [f64; 3]| r[0] * x + r[1] * y + r[2];
         let [p, q, w] = self.matrix.map(row);
@@ -78,11 +78,11 @@ impl Transformation {
     }
 }
 
-/// The transformation of least squared differences that carries `measured` onto `given` (paired).
+/// The least-squares transformation from `measured` to `given` (paired).
 ///
 /// # Errors
-/// [`Error::Invalid`] when the lists differ in length, hold numbers that are not finite, are too short for the kind, or
-/// lie on a line (for the projective kind: all but one of the marks).
+/// [`Error::Invalid`] if the lists differ in length, contain numbers that are not finite, are too short for the kind, or if the marks
+/// lie on a line (for the projective kind: all marks except one).
 pub fn fit(kind: Kind, measured: &[[f64; 2]], given: &[[f64; 2]]) -> Result<Transformation> {
     let n = measured.len();
     let needed = kind.parameters() / 2;
@@ -191,7 +191,7 @@ fn project(m: &[[f64; 3]; 3], [x, y]: [f64; 2]) -> [f64; 2] {
     [p / w, q / w]
 }
 
-/// The matrix for machine and target coordinates as they are.
+/// The matrix for comparator and target coordinates that are not reduced and scaled.
 fn unnormalised(m: &[[f64; 3]; 3], origin: [f64; 2], scale: f64, target: [f64; 2], size: f64) -> [[f64; 3]; 3] {
     // Columns: x and y over scale, less the origin.
     let columns = m.map(|[x, y, one]| [x / scale, y / scale, one - (x * origin[0] + y * origin[1]) / scale]);
@@ -201,7 +201,7 @@ fn unnormalised(m: &[[f64; 3]; 3], origin: [f64; 2], scale: f64, target: [f64; 2
     if last == 0.0 { matrix } else { matrix.map(|row| row.map(|value| value / last)) }
 }
 
-/// Parameters for machine coordinates counted from their centroid, with standard errors.
+/// Parameters for comparator coordinates relative to their centroid, with standard errors.
 fn coefficients(
     kind: Kind,
     h: &[f64; 8],
@@ -245,13 +245,13 @@ mod tests {
     const MARKS: [[f64; 2]; 6] =
         [[-40.0, -55.0], [41.0, -54.0], [39.5, 56.0], [-40.5, 55.0], [0.2, 56.5], [-0.4, -55.5]];
 
-    /// Marks as a comparator with another origin, turn and units would give them.
+    /// Marks as a comparator with another origin, rotation and unit would measure them.
     fn measured(h: [[f64; 3]; 3]) -> Vec<[f64; 2]> {
         MARKS.iter().map(|p| project(&h, *p)).collect()
     }
 
     #[test]
-    fn each_kind_recovers_what_it_can_express() {
+    fn each_kind_recovers_transformations_of_its_kind() {
         let turned = [[0.98, -0.2, 312.4], [0.2, 0.98, 107.9], [0.0, 0.0, 1.0]];
         let sheared = [[0.98, -0.21, 312.4], [0.2, 0.97, 107.9], [0.0, 0.0, 1.0]];
         let tilted = [[0.98, -0.21, 312.4], [0.2, 0.97, 107.9], [1e-4, -2e-4, 1.0]];

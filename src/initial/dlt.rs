@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, Matrix3, Matrix3x4, Matrix4, SMatrix, Vector3};
 
 use super::homography::normalising;
-use super::{Degeneracy, Pose, Spread};
+use super::{Degeneracy, Pose, PrincipalAxes};
 use crate::rotation;
 
 /// A photo's interior and exterior orientation by direct linear transformation. Photo units.
@@ -35,7 +35,7 @@ pub struct Dlt {
 }
 
 impl Dlt {
-    /// The eleven parameters L₁ … L₁₁ about the true origin; none where the origin lies in the plane through the
+    /// The eleven parameters L₁ … L₁₁ about the true origin; `None` if the origin lies in the plane through the
     /// projection centre parallel to the photo, which makes the denominator 0 there.
     pub fn parameters(&self) -> Option<[f64; 11]> {
         let mut p = self.projection;
@@ -54,14 +54,14 @@ impl Dlt {
 /// # Errors
 /// [`Degeneracy::TooFew`] below six points; [`Degeneracy::Coplanar`] (or `Collinear`) when the points leave the
 /// eleven parameters undetermined, or determine them by their noise only;
-/// [`Degeneracy::NoSolution`] when the result is no camera: points on both sides of it, or a mirrored photo.
+/// [`Degeneracy::NoSolution`] if the result is not a camera: points on both sides of it, or a mirrored photo.
 pub fn dlt(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Dlt, Degeneracy> {
     let n = object.len().min(image.len());
     if n < 6 {
         return Err(Degeneracy::TooFew { needed: 6, given: n });
     }
     let (object, image) = (&object[..n], &image[..n]);
-    let spread = Spread::of(object)?;
+    let spread = PrincipalAxes::of(object)?;
     if spread.is_line() {
         return Err(Degeneracy::Collinear);
     }
@@ -82,7 +82,7 @@ pub fn dlt(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Dlt, Degenerac
 fn homogeneous(
     object: &[Vector3<f64>],
     image: &[[f64; 2]],
-    spread: &Spread,
+    spread: &PrincipalAxes,
     size: f64,
 ) -> Result<Matrix3x4<f64>, Degeneracy> {
     let shrink = normalising(image)?;

@@ -162,7 +162,7 @@ fn constraints(basis: &SMatrix<f64, 9, 4>) -> SMatrix<f64, 10, 20> {
     rows
 }
 
-/// The right ten columns after the left ten were brought to the identity; none when they are singular.
+/// The right ten columns after the left ten were brought to the identity; `None` if they are singular.
 fn eliminated(rows: &SMatrix<f64, 10, 20>) -> Option<SMatrix<f64, 10, 10>> {
     let left = rows.fixed_columns::<10>(0).into_owned();
     let right = rows.fixed_columns::<10>(10).into_owned();

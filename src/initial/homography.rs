@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use super::{Degeneracy, Pose, Spread};
+use super::{Degeneracy, Pose, PrincipalAxes};
 use crate::rotation;
 
 /// A homography between the plane of object points and the photo.
@@ -14,7 +14,7 @@ pub struct PlaneHomography {
     /// Plane to image: (x, y, 1)ᵀ ~ H·(s, t, 1)ᵀ with (s, t) along the first two axes of `plane`, divided by `unit`.
     pub matrix: Matrix3<f64>,
     /// The plane: centroid and axes of the object points.
-    pub plane: Spread,
+    pub plane: PrincipalAxes,
     /// Object length that (s, t) are counted in.
     pub unit: f64,
 }
@@ -22,7 +22,7 @@ pub struct PlaneHomography {
 /// The homography H with to ~ H·from, of unit norm, by normalised direct linear solution.
 ///
 /// # Errors
-/// [`Degeneracy::TooFew`] below four points; [`Degeneracy::Collinear`] when they do not span the plane.
+/// [`Degeneracy::TooFew`] below four points; [`Degeneracy::Collinear`] if they do not span the plane.
 pub fn homography(from: &[[f64; 2]], to: &[[f64; 2]]) -> Result<Matrix3<f64>, Degeneracy> {
     let n = from.len().min(to.len());
     if n < 4 {
@@ -70,7 +70,7 @@ pub(super) fn normalising(points: &[[f64; 2]]) -> Result<Matrix3<f64>, Degenerac
 /// # Errors
 /// As [`homography`].
 pub fn of_plane(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<PlaneHomography, Degeneracy> {
-    let plane = Spread::of(object)?;
+    let plane = PrincipalAxes::of(object)?;
     if plane.is_line() {
         return Err(Degeneracy::Collinear);
     }
@@ -90,7 +90,7 @@ impl PlaneHomography {
     /// diag(-1, -1, 1)·M and the translation.
     ///
     /// # Errors
-    /// [`Degeneracy::NoSolution`] when the plane is seen edge-on.
+    /// [`Degeneracy::NoSolution`] if the plane is seen edge-on.
     pub fn pose(&self) -> Result<Pose, Degeneracy> {
         let flip = Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0));
         let h = flip * self.matrix;
@@ -110,7 +110,7 @@ impl PlaneHomography {
 }
 
 /// The principal distance that makes all planes' homographies those of rotations, for images in photo coordinates
-/// about the principal point; none when every plane is parallel to its photo, which leaves it undetermined.
+/// about the principal point; `None` if every plane is parallel to its photo, which leaves it undetermined.
 ///
 /// With w = 1/c², each homography gives (h₁₁h₁₂ + h₂₁h₂₂)·w + h₃₁h₃₂ = 0 and
 /// (h₁₁² + h₂₁² - h₁₂² - h₂₂²)·w + h₃₁² - h₃₂² = 0; least squares over all of them.
@@ -157,7 +157,8 @@ mod tests {
 
     fn photo(angles: [f64; 3], distance: f64) -> Pose {
         let m = object_to_camera(angles);
-        let centre = Spread::of(&sheet()).expect("points").centroid + m.tr_mul(&Vector3::new(0.1, 0.0, distance));
+        let centre =
+            PrincipalAxes::of(&sheet()).expect("points").centroid + m.tr_mul(&Vector3::new(0.1, 0.0, distance));
         Pose { object_to_camera: m, centre }
     }
 

@@ -16,7 +16,7 @@ pub struct Ray {
     pub pose: Pose,
     /// Ideal coordinates.
     pub image: [f64; 2],
-    /// Weight of the residuals in ideal coordinates: (c / sigma)², or 1 everywhere.
+    /// Weight of the residuals in ideal coordinates: (c / sigma)², or 1 for equal weights.
     pub weight: f64,
 }
 
@@ -29,17 +29,17 @@ pub struct Intersection {
     pub angle: f64,
     /// Projection minus measurement in ideal coordinates, ray by ray.
     pub residuals: Vec<[f64; 2]>,
-    /// Cofactors of the point for the weights given: its covariance where these are (c / sigma)².
+    /// Cofactor matrix of the point for the given weights; its covariance matrix if these are (c / sigma)².
     pub cofactors: Matrix3<f64>,
 }
 
-/// Rays that meet at less than this angle (0.3°) are not intersected: the distance would be noise.
+/// Minimum intersection angle (0.3°): with a smaller one the distance is undetermined.
 pub const SMALLEST_ANGLE: f64 = 0.005;
 
-/// The object point nearest to all rays.
+/// The object point with the smallest squared residuals of all rays.
 ///
 /// # Errors
-/// [`Degeneracy::TooFew`] below two rays; [`Degeneracy::NearParallel`] when no two rays meet at [`SMALLEST_ANGLE`] or
+/// [`Degeneracy::TooFew`] below two rays; [`Degeneracy::NearParallel`] if no two rays meet at [`SMALLEST_ANGLE`] or
 /// more; [`Degeneracy::BehindCamera`] names the first ray that points away from the point.
 pub fn intersect(rays: &[Ray]) -> Result<Intersection, Degeneracy> {
     if rays.len() < 2 {
@@ -63,8 +63,7 @@ pub fn intersect(rays: &[Ray]) -> Result<Intersection, Degeneracy> {
     Ok(Intersection { point, angle, residuals, cofactors })
 }
 
-/// Largest angle between two rays. With many rays the extremes are looked for among all pairs all the same: the
-/// number of rays of a point is that of the photos.
+/// Largest angle between two rays, over all pairs: a point has at most as many rays as there are photos.
 fn largest_angle(rays: &[Ray]) -> f64 {
     let directions: Vec<Vector3<f64>> = rays.iter().map(|ray| ray.pose.ray(ray.image)).collect();
     let mut largest: f64 = 0.0;
@@ -76,8 +75,8 @@ fn largest_angle(rays: &[Ray]) -> f64 {
     largest
 }
 
-/// Least squares of the linear equations, each weighted by the ray's spread so that oblique image places count alike.
-/// Coordinates are reduced to the first projection centre.
+/// Least-squares solution of the linear equations, each normalised so that points far from the image centre have the same weight.
+/// Coordinates are reduced to the first projection centre. `None` if the equations are singular.
 fn linear(rays: &[Ray]) -> Option<Vector3<f64>> {
     let origin = rays[0].pose.centre;
     let mut normal = Matrix3::zeros();
@@ -98,7 +97,7 @@ fn behind(rays: &[Ray], point: &Vector3<f64>) -> Option<usize> {
     rays.iter().position(|ray| ray.pose.image(point).is_none())
 }
 
-/// Gauss-Newton with halved steps; returns the point and its normal equations.
+/// Gauss-Newton iteration with step halving; returns the point and its normal matrix.
 fn refined(rays: &[Ray], mut point: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let cost =
         |p: &Vector3<f64>| -> f64 { rays.iter().map(|ray| ray.weight * ray.pose.misfit(p, ray.image).powi(2)).sum() };
@@ -157,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_intersected_is_named() {
+    fn degenerate_rays_are_reported() {
         let point = Vector3::new(0.0, 0.0, -1000.0);
         let one = ray([0.0; 3], [0.0; 3], point);
         assert_eq!(intersect(&[one]).unwrap_err(), Degeneracy::TooFew { needed: 2, given: 1 });
@@ -169,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn the_refined_point_is_the_minimum_and_its_cofactors_the_noise() {
+    fn the_refined_point_is_the_minimum_and_its_cofactors_are_its_curvature() {
         let point = Vector3::new(0.3, -0.2, 0.1);
         let mut rays: Vec<Ray> =
             [-3.0, 1.0, 2.5].map(|d: f64| ray([0.0, (d / 6.0).atan(), 0.2], [d, 0.4 * d, 6.0], point)).to_vec();

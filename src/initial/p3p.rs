@@ -109,7 +109,7 @@ fn polished(mut s: Vector3<f64>, [a2, b2, c2]: [f64; 3], [cos_a, cos_b, cos_c]: 
     s
 }
 
-/// The pose that carries a triangle of the object onto the same triangle in the camera frame.
+/// The pose that transforms a triangle of the object to the same triangle in the camera frame.
 fn pose_of_triangle(object: &[Vector3<f64>; 3], camera: &[Vector3<f64>; 3]) -> Pose {
     let frame = |t: &[Vector3<f64>; 3]| {
         let first = (t[1] - t[0]).normalize();

@@ -35,7 +35,7 @@ impl Pose {
         self.object_to_camera * (point - self.centre)
     }
 
-    /// Ideal coordinates of an object point; none when it is not in front of the camera.
+    /// Ideal coordinates of an object point; `None` if it is not in front of the camera.
     pub fn image(&self, point: &Vector3<f64>) -> Option<[f64; 2]> {
         let p = self.to_camera(point);
         (-p.z > GRAZING * p.norm()).then(|| [-p.x / p.z, -p.y / p.z])
@@ -46,7 +46,7 @@ impl Pose {
         self.object_to_camera.tr_mul(&Vector3::new(x, y, -1.0)).normalize()
     }
 
-    /// Residual projection minus measurement in ideal coordinates; none when the point is not in front.
+    /// Residual projection minus measurement in ideal coordinates; `None` if the point is not in front.
     pub fn residual(&self, point: &Vector3<f64>, measured: [f64; 2]) -> Option<Vector2<f64>> {
         self.image(point).map(|[x, y]| Vector2::new(x - measured[0], y - measured[1]))
     }

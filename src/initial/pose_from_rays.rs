@@ -11,9 +11,9 @@ use super::Pose;
 use super::intersection::Ray;
 use super::pose::pose_jacobian;
 
-/// What a measurement (ideal coordinates) is of.
+/// Object of a measurement in the photo to be oriented.
 #[derive(Clone, Copy, Debug)]
-pub enum Target {
+pub enum ResectionTarget {
     /// A point with these coordinates.
     Point(Vector3<f64>),
     /// A point somewhere on this ray of another photo.
@@ -22,9 +22,9 @@ pub enum Target {
 
 /// A measurement in the photo to be oriented, in ideal coordinates.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
-    /// What is measured.
-    pub target: Target,
+pub struct ResectionObservation {
+    /// The measured quantity.
+    pub target: ResectionTarget,
     /// Where.
     pub image: [f64; 2],
 }
@@ -32,12 +32,12 @@ pub struct Seen {
 /// Iterations at each width.
 const ITERATIONS: usize = 8;
 
-impl Seen {
+impl ResectionObservation {
     /// Equations of a pose that it gives.
     pub fn equations(&self) -> usize {
         match self.target {
-            Target::Point(_) => 2,
-            Target::Ray(_) => 1,
+            ResectionTarget::Point(_) => 2,
+            ResectionTarget::Ray(_) => 1,
         }
     }
 
@@ -45,8 +45,8 @@ impl Seen {
     /// front of the cameras.
     pub fn misfit(&self, pose: &Pose) -> f64 {
         match self.target {
-            Target::Point(point) => pose.misfit(&point, self.image),
-            Target::Ray(ray) => {
+            ResectionTarget::Point(point) => pose.misfit(&point, self.image),
+            ResectionTarget::Ray(ray) => {
                 let own = pose.ray(self.image);
                 let other = ray.pose.ray(ray.image);
                 let base = pose.centre - ray.pose.centre;
@@ -63,12 +63,12 @@ impl Seen {
     fn rows(&self, pose: &Pose) -> Vec<(f64, Vector6<f64>)> {
         let [x, y] = self.image;
         match self.target {
-            Target::Point(point) => {
+            ResectionTarget::Point(point) => {
                 let Some(residual) = pose.residual(&point, self.image) else { return Vec::new() };
                 let jacobian = pose_jacobian(&pose.to_camera(&point));
                 (0..2).map(|k| (residual[k], jacobian.row(k).transpose())).collect()
             }
-            Target::Ray(ray) => {
+            ResectionTarget::Ray(ray) => {
                 // r·n = 0 with n the normal of the epipolar plane in the camera frame
                 let other = pose.object_to_camera * ray.pose.ray(ray.image);
                 let n = (pose.object_to_camera * (pose.centre - ray.pose.centre)).cross(&other);
@@ -92,7 +92,7 @@ impl Seen {
 }
 
 /// The pose that a start leads to while the width of the loss (ideal coordinates) narrows over `widths`.
-pub fn settled(start: Pose, seen: &[Seen], widths: &[f64]) -> Pose {
+pub fn settled(start: Pose, seen: &[ResectionObservation], widths: &[f64]) -> Pose {
     let mut pose = start;
     for &width in widths {
         let room = width * width;
@@ -152,7 +152,7 @@ mod tests {
     }
 
     /// Three points and eight rays of two other photos, as `own` sees them.
-    fn scene(own: &Pose) -> Vec<Seen> {
+    fn scene(own: &Pose) -> Vec<ResectionObservation> {
         let others = [pose([0.1, 0.3, 0.2], [2.0, -0.5, 6.0]), pose([-0.2, -0.25, 1.5], [-1.5, 1.0, 5.5])];
         let mut random = generator(7);
         let mut all = Vec::new();
@@ -161,7 +161,10 @@ mod tests {
             let other = others[k % 2];
             let (Some(image), Some(there)) = (own.image(&point), other.image(&point)) else { panic!("in front") };
             let ray = Ray { pose: other, image: there, weight: 1.0 };
-            all.push(Seen { target: if k < 3 { Target::Point(point) } else { Target::Ray(ray) }, image });
+            all.push(ResectionObservation {
+                target: if k < 3 { ResectionTarget::Point(point) } else { ResectionTarget::Ray(ray) },
+                image,
+            });
         }
         all
     }
@@ -172,8 +175,8 @@ mod tests {
         for seen in scene(&pose([0.31, -0.21, 1.12], [1.02, 1.48, 6.05])) {
             // The slope of an epipolar line is held, as in every step: near the solution it does not matter.
             let scale = |pose: &Pose| match seen.target {
-                Target::Point(_) => 1.0,
-                Target::Ray(ray) => {
+                ResectionTarget::Point(_) => 1.0,
+                ResectionTarget::Ray(ray) => {
                     let other = pose.object_to_camera * ray.pose.ray(ray.image);
                     let n = (pose.object_to_camera * (pose.centre - ray.pose.centre)).cross(&other);
                     n.x.hypot(n.y)
@@ -205,7 +208,7 @@ mod tests {
         assert!((found.centre - own.centre).norm() < 1e-3, "{}", found.centre);
         assert!((found.object_to_camera - own.object_to_camera).norm() < 1e-3);
         assert_eq!(agreeing(&found), 9);
-        let equations: usize = seen.iter().map(Seen::equations).sum();
+        let equations: usize = seen.iter().map(ResectionObservation::equations).sum();
         assert_eq!(equations, 14);
     }
 }

@@ -36,7 +36,7 @@ const JUDGES: usize = 100;
 /// (ideal coordinates). Same input and seed, same result.
 ///
 /// # Errors
-/// [`Degeneracy::TooFew`] below five pairs, [`Degeneracy::NearParallel`] when the photos were taken from one place,
+/// [`Degeneracy::TooFew`] below five pairs, [`Degeneracy::NearParallel`] if the photos were taken from one place,
 /// [`Degeneracy::NoSolution`] when nothing puts the points in front of both.
 pub fn relative_orientation(
     first: &[[f64; 2]],
@@ -115,7 +115,7 @@ fn depths(pose: &Pose, first: [f64; 2], second: [f64; 2]) -> Option<[f64; 2]> {
     (determinant > 1e-12).then(|| [(bl - cosine * br) / determinant, (cosine * bl - br) / determinant])
 }
 
-/// Of the four poses an essential matrix stands for, the one with most points in front of both photos.
+/// Of the four poses of an essential matrix, the one with most points in front of both photos.
 fn in_front(e: &Matrix3<f64>, first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Pose> {
     let svd = e.svd(true, true);
     let (u, v_t) = (svd.u?, svd.v_t?);

@@ -1,16 +1,15 @@
 //! Space resection with known interior orientation, from three or more points.
 //!
-//! Every solution of three-point samples is tried on all points; the residuals decide, and each solution kept is the
-//! least-squares one.
+//! Solutions of three-point samples are refined by least squares on all points and ordered by their residuals.
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::homography::of_plane;
 use super::p3p::p3p;
 use super::robust::{generator, quantile, sample, scale};
-use super::{Degeneracy, Pose, Spread};
+use super::{Degeneracy, Pose, PrincipalAxes};
 
-/// Extent across over extent along below which a figure is tried with its tilt mirrored.
+/// Ratio of the smallest to the largest extent of the points below which the pose with mirrored tilt is tried too.
 const NEARLY_FLAT: f64 = 0.2;
 
 /// A pose from known points.
@@ -20,7 +19,7 @@ pub struct Resection {
     pub pose: Pose,
     /// Projection minus measurement in ideal coordinates.
     pub residuals: Vec<[f64; 2]>,
-    /// √(Σv²/(2n - 6)) in ideal coordinates; times c it is in photo units. None for three points.
+    /// √(Σv²/(2n - 6)) in ideal coordinates; times c it is in photo units. `None` for three points.
     pub sigma0: Option<f64>,
     /// Whether each point took part; all of them in [`space_resection`].
     pub inliers: Vec<bool>,
@@ -47,7 +46,7 @@ impl Resection {
 /// only where the geometry is ambiguous (plane or weak figures). Image in ideal coordinates.
 ///
 /// # Errors
-/// [`Degeneracy::TooFew`] below three points, [`Degeneracy::Collinear`], [`Degeneracy::NoSolution`] when no pose has
+/// [`Degeneracy::TooFew`] below three points, [`Degeneracy::Collinear`], [`Degeneracy::NoSolution`] if no pose has
 /// all points in front.
 pub fn space_resection(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Vec<Resection>, Degeneracy> {
     let (object, image) = checked(object, image)?;
@@ -63,8 +62,8 @@ pub fn space_resection(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Ve
         poses.extend(plane.ok().and_then(|pose| pose.refined(object, image)));
     }
     let mut distinct = distinct_by_cost(poses, object, image);
-    // A flat figure seen from far away looks nearly the same when it is tilted the other way.
-    let spread = Spread::of(object)?;
+    // Nearly coplanar points seen from far away have nearly the same image when they are tilted the other way.
+    let spread = PrincipalAxes::of(object)?;
     if n > 3 && spread.extent[2] < NEARLY_FLAT * spread.extent[0] {
         let tilted: Vec<Pose> = distinct.iter().take(2).filter_map(|pose| tilted_back(pose, &spread)).collect();
         distinct.extend(tilted.iter().filter_map(|pose| pose.refined(object, image)));
@@ -76,8 +75,8 @@ pub fn space_resection(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Ve
     Ok(distinct.into_iter().map(|pose| Resection::new(pose, object, image, vec![true; n])).collect())
 }
 
-/// The pose from which the figure's plane has the mirrored tilt against the line of sight to its centroid.
-fn tilted_back(pose: &Pose, spread: &Spread) -> Option<Pose> {
+/// The pose in which the plane of the points has the mirrored tilt relative to the line of sight to their centroid.
+fn tilted_back(pose: &Pose, spread: &PrincipalAxes) -> Option<Pose> {
     let centroid = pose.to_camera(&spread.centroid);
     let sight = centroid.normalize();
     let normal = pose.object_to_camera * spread.axes.column(2);
@@ -87,13 +86,13 @@ fn tilted_back(pose: &Pose, spread: &Spread) -> Option<Pose> {
     Some(Pose { object_to_camera, centre: spread.centroid - object_to_camera.tr_mul(&centroid) })
 }
 
-/// The pose that most points agree with.
+/// The pose with which most points agree.
 ///
-/// Where all points agree with the pose of least squared residuals within `tolerance` (ideal coordinates), it is that
-/// one: a sample's exact fit to three points must not outweigh a fourth. Else poses of three-point samples are compared:
-/// the least median of the residuals tells the scatter, and the pose with the smallest sum of squares, each cut off at
-/// 3.5 robust standard deviations (never less than `tolerance`, never more than three times it unless the median asks
-/// for more), is refined on the points within that limit.
+/// If all points agree with the least-squares pose within `tolerance` (ideal coordinates), that pose is returned: the exact fit of a
+/// sample to three points must not outweigh a fourth point. Otherwise poses of three-point samples are compared: the least median of the
+/// residuals gives the scatter, and the pose with the smallest sum of squares, each truncated at
+/// 3.5 robust standard deviations (at least `tolerance`, at most three times the larger of `tolerance` and the median), is refined on the
+/// points within that limit.
 ///
 /// # Errors
 /// As [`space_resection`]; `TooFew` below four points, since three always agree; `NoSolution` where fewer than four
@@ -129,7 +128,7 @@ pub fn robust_resection(
     } else {
         (0..100).for_each(|_| try_triple(sample(&mut random, n)));
     }
-    // A little more than the median, so that the sample's own exact fit to three points of five does not win.
+    // A quantile above the median, so that a sample's exact fit to three of five points does not decide.
     let share = if n < 8 { 0.75 } else { 0.6 };
     let lengths: Vec<Vec<f64>> = poses.iter().map(misfits).collect();
     let median = lengths.iter().map(|l| quantile(l, share)).fold(f64::INFINITY, f64::min);
@@ -143,7 +142,7 @@ pub fn robust_resection(
     for round in 0..5 {
         let lengths = misfits(&pose);
         let agreeing: Vec<f64> = lengths.iter().copied().filter(|length| *length <= 2.0 * cut).collect();
-        // The first choice is made by a pose of three points, which lie exactly on it.
+        // The first pose comes from three points, whose residuals are 0, so its limit is not estimated from residuals.
         let limit = if round == 0 { 2.0 * cut } else { (3.5 * scale(&agreeing, 6)).clamp(tolerance, 2.0 * cut) };
         let now: Vec<bool> = lengths.iter().map(|length| *length <= limit).collect();
         let pick: Vec<usize> = (0..n).filter(|&k| now[k]).collect();
@@ -168,7 +167,7 @@ fn checked<'a>(object: &'a [Vector3<f64>], image: &'a [[f64; 2]]) -> Result<Chec
     if n < 3 {
         return Err(Degeneracy::TooFew { needed: 3, given: n });
     }
-    if Spread::of(&object[..n])?.is_line() {
+    if PrincipalAxes::of(&object[..n])?.is_line() {
         return Err(Degeneracy::Collinear);
     }
     Ok((&object[..n], &image[..n]))
@@ -249,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_identities_are_left_out() {
+    fn wrongly_named_points_are_rejected() {
         for seed in 0..50 {
             let (object, pose, mut image) = scene(12, 1000 + seed);
             image.swap(1, 5);

@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::{Degeneracy, Pose, Spread};
+use super::{Degeneracy, Pose, PrincipalAxes};
 
 /// X' = target_centroid + scale · R · (X - source_centroid).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct SimilarityFit {
     pub residuals: Vec<Vector3<f64>>,
     /// 3n - 7.
     pub redundancy: usize,
-    /// Standard deviation of a coordinate, √(Σv²/redundancy); none without redundancy.
+    /// Standard deviation of a coordinate, √(Σv²/redundancy); `None` without redundancy.
     pub sigma0: Option<f64>,
     /// Standard errors of the target centroid, target units; 0 without redundancy, like those below.
     pub sigma_translation: Vector3<f64>,
@@ -61,7 +61,7 @@ impl Similarity {
     }
 }
 
-/// The similarity transform of least squared differences that carries `source` onto `target` (paired, any units).
+/// The similarity transform of least squared differences that transforms `source` to `target` (paired, any units).
 ///
 /// # Errors
 /// [`Degeneracy::TooFew`] below three points, [`Degeneracy::Collinear`] when either set lies on a line.
@@ -70,13 +70,13 @@ pub fn fit(source: &[Vector3<f64>], target: &[Vector3<f64>]) -> Result<Similarit
     if n < 3 {
         return Err(Degeneracy::TooFew { needed: 3, given: n });
     }
-    let (from, to) = (Spread::of(&source[..n])?, Spread::of(&target[..n])?);
+    let (from, to) = (PrincipalAxes::of(&source[..n])?, PrincipalAxes::of(&target[..n])?);
     if from.is_line() || to.is_line() {
         return Err(Degeneracy::Collinear);
     }
     let (from_size, to_size) = (from.extent.norm(), to.extent.norm());
     // Reduced to unit size, so that metres against millimetres or pixels cost no digits.
-    let reduced = |p: &Vector3<f64>, spread: &Spread, size: f64| (p - spread.centroid) / size;
+    let reduced = |p: &Vector3<f64>, spread: &PrincipalAxes, size: f64| (p - spread.centroid) / size;
     let mut cross = Matrix3::zeros();
     let mut norm = 0.0;
     for (p, q) in source.iter().zip(target) {
@@ -160,7 +160,7 @@ pub fn fit_robust(
         let all = lengths(&transform);
         // The median length of three-dimensional residuals is 1.538 standard deviations of a coordinate.
         let limit = 4.0 * super::robust::quantile(&all, 0.5) / 1.538 * (1.0 + 5.0 / n as f64)
-            + 1e-12 * Spread::of(target)?.extent.norm();
+            + 1e-12 * PrincipalAxes::of(target)?.extent.norm();
         kept = all.iter().map(|length| *length <= limit).collect();
         let pick = |points: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
             points.iter().zip(&kept).filter(|(_, keep)| **keep).map(|(p, _)| *p).collect()

@@ -5,7 +5,7 @@
 //! take their targets out of the search. Of the rest large clusters win over the smaller ones that share targets with
 //! them, and rivals of one size wait until one of them is impossible.
 //!
-//! A cluster is believed when so many rays would not meet by chance. A chance cluster is made of targets that are in no
+//! A cluster is accepted if so many rays would not intersect by chance. A chance cluster is made of targets that are in no
 //! true one: with h pairs tried among the targets left over and the share p of a photo that these cover with the
 //! tolerance, h·C(v - 2, k - 2)·p^(k - 2) clusters of k rays among v photos are expected by chance.
 
@@ -14,8 +14,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector3;
 
-use super::epipolar::Band;
-use super::uncoded::{Free, Matching, View, similar};
+use super::epipolar::EpipolarIndex;
+use super::free::{Free, FreeTargets, Matching, similar};
 use crate::initial::intersection::{Intersection, Ray, intersect};
 use crate::project::{Point, Project};
 
@@ -38,17 +38,17 @@ const CONTESTED: f64 = 2.0;
 const RIVAL_FACTOR: f64 = 2.0;
 const RIVAL_SHARE: f64 = 0.2;
 
-/// Oriented photos with their free targets, and what is asked of a cluster.
-pub(super) struct Search<'a> {
-    pub views: Vec<View<'a>>,
+/// Input of the search: oriented photos with their free targets, and limits of a cluster.
+pub(super) struct ClusterSearch<'a> {
+    pub views: Vec<FreeTargets<'a>>,
     pub bounds: Option<[Vector3<f64>; 2]>,
     pub tolerance: f64,
     pub min_rays: usize,
 }
 
-/// What the pairs lead to.
+/// Clusters found from pairs.
 #[derive(Default)]
-struct Found {
+struct ClusterCandidates {
     /// Clusters beyond doubt, disjoint.
     sure: Vec<Cluster>,
     /// The others, with their rms in pixels.
@@ -57,7 +57,7 @@ struct Found {
     tried: Vec<[(usize, usize); 2]>,
 }
 
-impl Search<'_> {
+impl ClusterSearch<'_> {
     fn ray(&self, (view, free): (usize, usize)) -> Ray {
         let v = &self.views[view];
         Ray { pose: v.photo.pose, image: v.free[free].ray, weight: v.photo.principal_distance_px.powi(2) }
@@ -75,7 +75,7 @@ impl Search<'_> {
         (within && inside).then_some((found, rms))
     }
 
-    /// Photos worth pairing with each photo: the nearest ones.
+    /// Photos to pair with each photo: the nearest ones.
     fn neighbours(&self, view: usize) -> Vec<usize> {
         let centre = |k: usize| self.views[k].photo.pose.centre;
         let mut others: Vec<usize> = (0..self.views.len()).filter(|&k| k != view).collect();
@@ -86,8 +86,8 @@ impl Search<'_> {
 
     /// The sure clusters at a tolerance that is doubled up to the one asked for: what stands out at the measurements' own
     /// noise is not lost among the candidates of a wide tolerance. At the last one also every other cluster.
-    fn found(&mut self, narrowest: f64) -> Found {
-        let mut found = Found::default();
+    fn found(&mut self, narrowest: f64) -> ClusterCandidates {
+        let mut found = ClusterCandidates::default();
         let mut settled: Vec<Vec<bool>> = self.views.iter().map(|v| vec![false; v.free.len()]).collect();
         let widest = self.tolerance;
         let mut tolerance = narrowest;
@@ -104,7 +104,7 @@ impl Search<'_> {
     }
 
     /// Every cluster that some pair of targets leads to.
-    fn search(&self, found: &mut Found, settled: &mut [Vec<bool>]) {
+    fn search(&self, found: &mut ClusterCandidates, settled: &mut [Vec<bool>]) {
         let neighbours: Vec<Vec<usize>> = (0..self.views.len()).map(|k| self.neighbours(k)).collect();
         let reach = 2.0 * self.tolerance;
         for a in 0..self.views.len() {
@@ -115,7 +115,7 @@ impl Search<'_> {
                 let (first, second) = (&self.views[a], &self.views[b]);
                 let left: Vec<usize> = (0..second.free.len()).filter(|&j| !settled[b][j]).collect();
                 let rays: Vec<[f64; 2]> = left.iter().map(|&j| second.free[j].ray).collect();
-                let Some(band) = Band::new(&first.photo, &second.photo, &rays, reach) else { continue };
+                let Some(band) = EpipolarIndex::new(&first.photo, &second.photo, &rays, reach) else { continue };
                 for i in 0..first.free.len() {
                     if settled[a][i] {
                         continue;
@@ -211,7 +211,7 @@ impl Search<'_> {
         Some((cluster, rms, alone))
     }
 
-    /// The cluster without the rays beyond the tolerance, worst first; none when too few are left.
+    /// The cluster without the rays beyond the tolerance, worst first; `None` if too few are left.
     fn trimmed(&self, mut cluster: Cluster) -> Option<(Cluster, f64)> {
         while cluster.len() >= self.min_rays {
             if let Some((_, rms)) = self.meets(&cluster, self.tolerance) {
@@ -230,7 +230,7 @@ impl Search<'_> {
     fn believable(&self, rays: usize, point: &Vector3<f64>, pairs: usize, left_over: &[usize]) -> bool {
         let showing = self.views.iter().filter(|v| v.photo.shows(point)).count().max(rays);
         let area = std::f64::consts::PI * self.tolerance * self.tolerance;
-        let covered = |(v, count): (&View, &usize)| {
+        let covered = |(v, count): (&FreeTargets, &usize)| {
             *count as f64 * area / (f64::from(v.photo.camera.width) * f64::from(v.photo.camera.height))
         };
         let share = self.views.iter().zip(left_over).map(covered).sum::<f64>() / self.views.len().max(1) as f64;
@@ -242,7 +242,7 @@ impl Search<'_> {
     }
 
     /// Disjoint clusters: the sure ones, then the largest first; and the targets in doubt between some.
-    fn resolved(&self, found: &Found) -> (Vec<Cluster>, BTreeSet<(usize, usize)>) {
+    fn resolved(&self, found: &ClusterCandidates) -> (Vec<Cluster>, BTreeSet<(usize, usize)>) {
         let clusters = &found.clusters;
         let order = |cluster: &Cluster, rms: f64| (Reverse(cluster.len()), (rms * 1e6) as u64, cluster.clone());
         let mut used: BTreeSet<(usize, usize)> = found.sure.iter().flatten().copied().collect();
@@ -339,7 +339,7 @@ impl Search<'_> {
         view.nearest(image, radius, |_| true).is_some_and(|(nearest, more)| more || nearest != free)
     }
 
-    /// Names the clusters that are believed.
+    /// Names the accepted clusters.
     ///
     /// `narrowest` is the tolerance of the first search.
     pub fn resolve(&mut self, narrowest: f64, project: &Project, matching: &mut Matching) {
@@ -355,7 +355,7 @@ impl Search<'_> {
         let mut names = (1..).map(|k| format!("u{k}")).filter(|name| !ids.contains(name.as_str()));
         for cluster in taken {
             let met = self.meets(&cluster, self.tolerance).filter(|(met, _)| met.angle >= SMALLEST_ANGLE);
-            // The cluster's own pairs stand for those that chance may have made of its targets.
+            // The cluster's own pairs represent those that its targets may form by chance.
             let pairs = pairs + cluster.len();
             let Some((met, _)) = met.filter(|(m, _)| self.believable(cluster.len(), &m.point, pairs, &left_over))
             else {

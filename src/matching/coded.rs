@@ -9,7 +9,7 @@ use crate::detection::Target;
 use crate::project::{Observation, Point};
 use crate::ring_code::Family;
 
-/// What the codes say.
+/// Result of the codes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Coded {
     /// The points, ascending by code; the identifier is the code's number.
@@ -22,24 +22,24 @@ pub struct Coded {
     /// The family whose codes were taken: the one asked for, or the only one that explains every ring of every photo.
     #[serde(default)]
     pub family: Option<Family>,
-    /// The families that explain every ring. Several: somebody has to choose. None although rings were read: they are of
+    /// The families that explain every ring. Several: the user has to choose. None although rings were read: they are of
     /// different families.
     #[serde(default)]
     pub families: Vec<Family>,
 }
 
-/// How a target's ring reads in a family.
-enum Reading {
+/// Code of a target's ring in a family.
+enum FamilyReading {
     Safe(u32),
     Doubtful,
     Nothing,
 }
 
-fn reading(target: &Target, family: Family) -> Reading {
+fn reading(target: &Target, family: Family) -> FamilyReading {
     match target.code_in(family) {
-        Some(number) => Reading::Safe(number),
-        None if target.code_candidates.iter().any(|c| c.family == family) => Reading::Doubtful,
-        None => Reading::Nothing,
+        Some(number) => FamilyReading::Safe(number),
+        None if target.code_candidates.iter().any(|c| c.family == family) => FamilyReading::Doubtful,
+        None => FamilyReading::Nothing,
     }
 }
 
@@ -51,7 +51,7 @@ fn explaining(photos: &[PhotoTargets]) -> (Vec<Family>, usize) {
         |ring: &Target| ring.code_candidates.iter().filter(|c| c.margin > 0.0).map(|c| c.family).collect::<Vec<_>>();
     let named: BTreeSet<Family> =
         rings.iter().flat_map(|ring| ring.code_family.into_iter().chain(safely(ring))).collect();
-    let explains = |family: &Family| rings.iter().all(|ring| !matches!(reading(ring, *family), Reading::Nothing));
+    let explains = |family: &Family| rings.iter().all(|ring| !matches!(reading(ring, *family), FamilyReading::Nothing));
     (named.into_iter().filter(explains).collect(), rings.len())
 }
 
@@ -59,20 +59,20 @@ fn explaining(photos: &[PhotoTargets]) -> (Vec<Family>, usize) {
 /// the one that is asked for.
 ///
 /// A code that occurs more than once in a photo names none of its targets there. A point is listed once it has an
-/// observation, even a single one: the later steps say what is missing.
+/// observation, even a single one: the later steps report what is missing.
 pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
     let (families, rings) = explaining(photos);
     let single = if let [family] = families[..] { Some(family) } else { None };
     let taken = family.or(single);
     let mut coded = Coded { family: taken, families, ..Coded::default() };
-    // numbers of targets that come without a family stand for themselves
+    // numbers of targets without a family are used as they are
     let bare = photos
         .iter()
         .flat_map(|photo| &photo.targets)
         .all(|target| target.code_family.is_none() && target.code_candidates.is_empty());
     let number = |target: &Target| match taken {
         Some(family) => match reading(target, family) {
-            Reading::Safe(number) => Some(number),
+            FamilyReading::Safe(number) => Some(number),
             _ => None,
         },
         None => target.code.filter(|_| bare),
@@ -95,7 +95,7 @@ pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
             let Some(code) = number(target) else {
                 if rings > 0 && taken.is_none() && (target.code.is_some() || !target.code_candidates.is_empty()) {
                     coded.doubtful.push(doubt(Vec::new(), Doubt::CodeFamily));
-                } else if taken.is_some_and(|family| matches!(reading(target, family), Reading::Doubtful)) {
+                } else if taken.is_some_and(|family| matches!(reading(target, family), FamilyReading::Doubtful)) {
                     let mine = target.code_candidates.iter().filter(|c| Some(c.family) == taken);
                     coded.doubtful.push(doubt(mine.map(|c| c.number.to_string()).collect(), Doubt::CodeUnclear));
                 }

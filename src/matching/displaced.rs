@@ -37,15 +37,17 @@ pub struct PhotoVector {
 pub struct PhotoVectors {
     /// Identifier of the photo.
     pub photo: String,
-    /// Of the points that are measured in it; a displacement that ends behind the camera at this factor is left out.
+    /// Of the points that are measured in it.
     pub vectors: Vec<PhotoVector>,
+    /// Points that are measured in it, whose displacement ends where the camera has no image of it at this factor: behind it, or far beside.
+    pub not_drawn: Vec<String>,
 }
 
 /// Displacements of a pair of epochs, `factor` times as long, in the photos of an adjusted project of the same object.
 ///
 /// # Errors
-/// [`Error::Invalid`] for a factor that is not positive; those of [`Project::validate`]. A project that has fewer than three of the pair's
-/// points, or all on a line, shows none.
+/// [`Error::Invalid`] for a factor that is not positive, and for a project that shares fewer than three points with the pair, or all on a line;
+/// those of [`Project::validate`].
 pub fn displaced(project: &Project, adjustment: &Adjustment, pair: &Pair, factor: f64) -> Result<Vec<PhotoVectors>> {
     project.validate()?;
     if !(factor > 0.0 && factor < 1e12) {
@@ -64,7 +66,10 @@ pub fn displaced(project: &Project, adjustment: &Adjustment, pair: &Pair, factor
         pair.points.iter().filter_map(|p| here(p).map(|(name, place)| (p, name, place))).collect();
     let source: Vec<Vector3<f64>> = found.iter().map(|(p, ..)| Vector3::from(p.xyz)).collect();
     let target: Vec<Vector3<f64>> = found.iter().map(|(.., place)| *place).collect();
-    let Ok((fit, _)) = fit_robust(&source, &target, 0) else { return Ok(Vec::new()) };
+    let (fit, _) = fit_robust(&source, &target, 0).map_err(|_| Error::Invalid {
+        reason: Reason::DisplacedApart { given: source.len() },
+        at: Place::field("project"),
+    })?;
     let turned = fit.transform.rotation * fit.transform.scale;
     let measured: HashSet<(&str, &str)> =
         project.observations.iter().filter(|o| o.enabled).map(|o| (o.photo.as_str(), o.point.as_str())).collect();
@@ -72,17 +77,17 @@ pub fn displaced(project: &Project, adjustment: &Adjustment, pair: &Pair, factor
     let of_photo = |photo: &OrientedPhoto| {
         let pixel = |place: Vector3<f64>| pixel_from_camera_point(&photo.camera, photo.pose.to_camera(&place));
         let own = found.iter().filter(|(_, name, _)| measured.contains(&(photo.id.as_str(), name.as_str())));
-        let vector = own.filter_map(|(p, name, place)| {
+        let (mut vectors, mut not_drawn) = (Vec::new(), Vec::new());
+        for (p, name, place) in own {
             let by = turned * Vector3::from(p.difference) * factor;
-            Some(PhotoVector {
-                point: name.clone(),
-                from: pixel(*place)?,
-                to: pixel(place + by)?,
-                length: p.length,
-                moved: p.moved || pair.unstable.contains(&p.id),
-            })
-        });
-        PhotoVectors { photo: photo.id.clone(), vectors: vector.collect() }
+            let Some((from, to)) = pixel(*place).zip(pixel(place + by)) else {
+                not_drawn.push(name.clone());
+                continue;
+            };
+            let moved = p.moved || pair.unstable.contains(&p.id);
+            vectors.push(PhotoVector { point: name.clone(), from, to, length: p.length, moved });
+        }
+        PhotoVectors { photo: photo.id.clone(), vectors, not_drawn }
     };
     Ok(OrientedPhoto::all(&oriented).iter().map(of_photo).collect())
 }

@@ -13,7 +13,7 @@ use super::photo::OrientedPhoto;
 const WIDEST: f64 = 0.02;
 
 /// The targets of one photo by their half-planes about the base to another.
-pub(super) struct Band {
+pub(super) struct EpipolarIndex {
     base: Vector3<f64>,
     zero: Vector3<f64>,
     side: Vector3<f64>,
@@ -25,7 +25,7 @@ pub(super) struct Band {
     near_epipole: Vec<usize>,
 }
 
-impl Band {
+impl EpipolarIndex {
     /// Sorts the rays (ideal coordinates) of `second`; `reach_px` is how far apart a pair may be from its epipolar line. None
     /// for photos taken from one place.
     pub fn new(first: &OrientedPhoto, second: &OrientedPhoto, rays: &[[f64; 2]], reach_px: f64) -> Option<Self> {
@@ -118,7 +118,7 @@ mod tests {
                 points.iter().map(image).collect()
             };
             let (a, b) = (seen(&first), seen(&second));
-            let band = Band::new(&first, &second, &b, 1.0).expect("a base");
+            let band = EpipolarIndex::new(&first, &second, &b, 1.0).expect("a base");
             let mut offered = 0;
             for (n, ray) in a.iter().enumerate() {
                 let candidates = band.candidates(&first, *ray, 1.0);

@@ -16,7 +16,7 @@ const DEEPEST: u32 = 8;
 /// Pieces that the visible part begins with: some may lie where the distortion has no inverse.
 const PIECES: usize = 8;
 
-/// Course of the ray of ideal coordinates `image` of `first` in `second`, pixels; empty where it does not cross the picture.
+/// Course of the ray of ideal coordinates `image` of `first` in `second`, pixels; empty if it does not cross the picture.
 pub(super) fn epipolar_line(first: &OrientedPhoto, second: &OrientedPhoto, image: [f64; 2]) -> Vec<[f64; 2]> {
     let a = second.pose.object_to_camera * (first.pose.centre - second.pose.centre);
     let b = second.pose.object_to_camera * first.pose.ray(image);

@@ -32,7 +32,7 @@ pub struct Cleaned {
 }
 
 /// Adjusts, disables measurements that disagree with the other rays of their point, and adjusts again until none does. The first
-/// adjustment is a robust one: what is to be judged must not have carried away what judges it.
+/// adjustment is a robust one: what is to be judged must not have distorted the state by which it is judged.
 ///
 /// # Errors
 /// Those of [`adjust`].
@@ -78,7 +78,7 @@ pub fn without_gross_errors(
 /// Places, in the project's list, of the enabled observations that do not agree with the other rays of their point,
 /// judged with the orientations and cameras the project holds.
 ///
-/// Where two rays are left and do not meet, neither can be believed and both are listed.
+/// Where two rays are left and do not meet, neither can be trusted and both are listed.
 pub fn disagreeing(project: &Project) -> Vec<usize> {
     let photos = OrientedPhoto::all(project);
     let by_id: BTreeMap<&str, &OrientedPhoto> = photos.iter().map(|p| (p.id.as_str(), p)).collect();

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use super::PhotoTargets;
+use super::free::{MatchOptions, Matching, tolerance_px, views};
 use super::photo::OrientedPhoto;
-use super::uncoded::{MatchOptions, Matching, tolerance_px, views};
 use crate::initial::intersection::{Ray, intersect};
 use crate::initial::robust::quantile;
 use crate::project::{Project, Role};
@@ -15,15 +15,15 @@ use crate::project::{Project, Role};
 /// Tolerances, as distances at the object, within which two points are compared ray by ray.
 const NEAR: f64 = 10.0;
 
-/// A ray to a point, and how wide its target is in the photo, in pixels.
+/// A ray to a point with the width of its target in the photo, in pixels.
 #[derive(Clone, Copy)]
-struct Seen {
+struct SizedRay {
     ray: Ray,
     width: Option<f64>,
 }
 
 /// Rays of a point, by photo.
-type Rays = BTreeMap<usize, Seen>;
+type PointRays = BTreeMap<usize, SizedRay>;
 
 /// Joins new points to what there was before, and to each other.
 pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[PhotoTargets], options: &MatchOptions) {
@@ -34,13 +34,13 @@ pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[Ph
         .iter()
         .flat_map(|found| found.targets.iter().map(|t| ((found.photo.as_str(), place(t.u, t.v)), t.major)))
         .collect();
-    let mut rays: BTreeMap<String, Rays> = BTreeMap::new();
+    let mut rays: BTreeMap<String, PointRays> = BTreeMap::new();
     for o in project.observations.iter().filter(|o| o.enabled) {
         let Some(&k) = by_id.get(o.photo.as_str()) else { continue };
         let Some(image) = photos[k].ray([o.u, o.v]) else { continue };
         let weight = photos[k].principal_distance_px.powi(2);
         let width = widths.get(&(o.photo.as_str(), place(o.u, o.v))).copied();
-        let seen = Seen { ray: Ray { pose: photos[k].pose, image, weight }, width };
+        let seen = SizedRay { ray: Ray { pose: photos[k].pose, image, weight }, width };
         rays.entry(o.point.clone()).or_default().insert(k, seen);
     }
     let mut places: Vec<(String, Vector3<f64>)> = project
@@ -61,7 +61,7 @@ pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[Ph
             !own.keys().any(|photo| theirs.contains_key(photo))
                 && (within() || distance <= NEAR * tolerance * pixel && are_one(own, theirs, tolerance))
         });
-        // Of two that it could be nobody knows which.
+        // With two candidates the right one is unknown.
         let (Some((other, _)), None) = (same.next().cloned(), same.next()) else { continue };
         let moved = rays.remove(&id).unwrap_or_default();
         rays.entry(other.clone()).or_default().extend(moved);
@@ -84,7 +84,7 @@ fn pixel_at(ray: &Ray, point: &Vector3<f64>) -> f64 {
 }
 
 /// Radius at the object of the target that these rays point to; of a slanted disc the longer axis keeps its length.
-fn radius(rays: &Rays, point: &Vector3<f64>) -> Option<f64> {
+fn radius(rays: &PointRays, point: &Vector3<f64>) -> Option<f64> {
     let radii: Vec<f64> =
         rays.values().filter_map(|seen| Some(seen.width? / 2.0 * pixel_at(&seen.ray, point))).collect();
     (!radii.is_empty()).then(|| quantile(&radii, 0.5))
@@ -92,7 +92,7 @@ fn radius(rays: &Rays, point: &Vector3<f64>) -> Option<f64> {
 
 /// Whether the rays of two points meet in one point as well as those of each by itself: a ray that misses its own point by more than
 /// the tolerance says nothing about the other one.
-fn are_one(own: &Rays, theirs: &Rays, tolerance: f64) -> bool {
+fn are_one(own: &PointRays, theirs: &PointRays, tolerance: f64) -> bool {
     let missing = |rays: Vec<Ray>| missing(&rays, tolerance);
     let [own, theirs] = [own, theirs].map(|rays| rays.values().map(|seen| seen.ray).collect::<Vec<_>>());
     let together = own.iter().chain(&theirs).copied().collect();

@@ -1,13 +1,13 @@
 //! Points with given coordinates that no photo names yet: dots of a calibration sheet whose control file is in the project.
 //!
-//! They are looked for where the photos should show them, so that their targets do not become new points beside them. That asks for photos
-//! that stand in the system of the given coordinates: given points that are named already tell, by being seen where they should be.
+//! They are looked for where the photos should show them, so that their targets do not become new points beside them. That needs photos
+//! that are in the system of the given coordinates: named given points at their predicted positions show this.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use super::uncoded::{View, similar};
+use super::free::{FreeTargets, similar};
 use crate::project::{Point, Project, Role};
 
 /// Given points that have to be seen in their places: three fix a system.
@@ -16,12 +16,17 @@ const WITNESSES: usize = 3;
 const SIGMAS: f64 = 3.0;
 
 /// Image measurements of points, by point: photo and pixel.
-pub(super) type Seen<'a> = BTreeMap<&'a str, Vec<(&'a str, [f64; 2])>>;
+pub(super) type MeasuredPixels<'a> = BTreeMap<&'a str, Vec<(&'a str, [f64; 2])>>;
 
-/// Whether the photos stand in the system of the given coordinates: three named control points at least, and most of those that there are, are
+/// Whether the photos are in the system of the given coordinates: three named control points at least, and most of those that there are, are
 /// seen where these put them.
-pub(super) fn is_their_system(project: &Project, views: &[View], seen: &Seen, tolerance_px: f64) -> bool {
-    let by_id: BTreeMap<&str, &View> = views.iter().map(|view| (view.photo.id.as_str(), view)).collect();
+pub(super) fn is_their_system(
+    project: &Project,
+    views: &[FreeTargets],
+    seen: &MeasuredPixels,
+    tolerance_px: f64,
+) -> bool {
+    let by_id: BTreeMap<&str, &FreeTargets> = views.iter().map(|view| (view.photo.id.as_str(), view)).collect();
     let (mut agree, mut all) = (0, 0);
     for point in project.points.iter().filter(|p| p.role == Role::Control) {
         let (Some(xyz), Some(rays)) = (point.xyz.map(Vector3::from), seen.get(point.id.as_str())) else { continue };
@@ -40,7 +45,7 @@ pub(super) fn is_their_system(project: &Project, views: &[View], seen: &Seen, to
 }
 
 /// How far from its place a given point may be seen: what the photos leave open and what its own standard errors do.
-pub(super) fn radius_px(view: &View, point: &Point, xyz: &Vector3<f64>, tolerance_px: f64) -> f64 {
+pub(super) fn radius_px(view: &FreeTargets, point: &Point, xyz: &Vector3<f64>, tolerance_px: f64) -> f64 {
     let sigma = point.sigma.iter().flatten().flatten().copied().fold(0.0, f64::max);
     let depth = -view.photo.pose.to_camera(xyz).z;
     if !(depth > 0.0) {
@@ -50,7 +55,7 @@ pub(super) fn radius_px(view: &View, point: &Point, xyz: &Vector3<f64>, toleranc
 }
 
 /// The free target of a photo that is a given point, and whether it is the only one; none nearer than half its own size to another's place.
-pub(super) fn target(view: &View, point: &Point, tolerance_px: f64) -> Option<(usize, bool)> {
+pub(super) fn target(view: &FreeTargets, point: &Point, tolerance_px: f64) -> Option<(usize, bool)> {
     let xyz = Vector3::from(point.xyz?);
     let image = view.photo.pose.image(&xyz)?;
     let fits = |size: f64| point.diameter.is_none_or(|diameter| similar(size, diameter));

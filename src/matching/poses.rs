@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 
 use super::PhotoTargets;
-use super::uncoded::{MatchOptions, View, tolerance_px, views};
+use super::free::{FreeTargets, MatchOptions, tolerance_px, views};
 use crate::initial::Pose;
 use crate::initial::resection::space_resection;
 use crate::project::{Project, Role};
@@ -20,15 +20,15 @@ use crate::rotation;
 const MANY: usize = 12;
 /// Radii of the search, in tolerances, one resection each.
 const RADII: [f64; 5] = [4.0, 3.0, 2.0, 1.0, 1.0];
-/// Targets that must speak for a pose, share of the points it sees, and targets by which it beats the one at hand.
+/// Minimum number of targets that agree with a pose, minimum share of the visible points, and minimum excess over the present pose.
 const FEWEST: usize = 6;
 const SHARE: f64 = 0.5;
 const BETTER: usize = 3;
 
 /// Points of a photo with their ideal coordinates.
-type Pairs = (Vec<Vector3<f64>>, Vec<[f64; 2]>);
+type PointPairs = (Vec<Vector3<f64>>, Vec<[f64; 2]>);
 
-/// Gives photos of few named points the pose that most targets bear out.
+/// Gives photos of few named points the pose with which most targets agree.
 pub(super) fn from_targets(project: &mut Project, targets: &[PhotoTargets], options: &MatchOptions) {
     let views = views(project, targets);
     let tolerance = options.tolerance_px.unwrap_or_else(|| tolerance_px(project, &views));
@@ -51,7 +51,7 @@ pub(super) fn from_targets(project: &mut Project, targets: &[PhotoTargets], opti
         let own: Vec<(&str, [f64; 2])> =
             own.filter_map(|o| Some((o.point.as_str(), view.photo.ray([o.u, o.v])?))).collect();
         let named = own.iter().filter_map(|(id, image)| Some((*known.get(id)?, *image)));
-        let named: Pairs = named.unzip();
+        let named: PointPairs = named.unzip();
         if !(3..MANY).contains(&named.0.len()) {
             continue;
         }
@@ -70,7 +70,7 @@ pub(super) fn from_targets(project: &mut Project, targets: &[PhotoTargets], opti
 }
 
 /// The pose that explains most targets, where it explains more than the present one.
-fn best(view: &View, named: &Pairs, others: &[Vector3<f64>], tolerance: f64) -> Option<Pose> {
+fn best(view: &FreeTargets, named: &PointPairs, others: &[Vector3<f64>], tolerance: f64) -> Option<Pose> {
     let present = explained(view, &view.photo.pose, others, tolerance).object.len();
     let resections = space_resection(&named.0, &named.1).unwrap_or_default().into_iter().map(|found| found.pose);
     let mut best: Option<(usize, Pose)> = None;
@@ -86,9 +86,9 @@ fn best(view: &View, named: &Pairs, others: &[Vector3<f64>], tolerance: f64) -> 
 
 /// A pose refined by the targets it explains, their number, and that of the points it sees.
 fn refined(
-    view: &View,
+    view: &FreeTargets,
     start: Pose,
-    named: &Pairs,
+    named: &PointPairs,
     others: &[Vector3<f64>],
     tolerance: f64,
 ) -> Option<(usize, usize, Pose)> {
@@ -121,7 +121,7 @@ struct Explained {
     seen: usize,
 }
 
-fn explained(view: &View, pose: &Pose, points: &[Vector3<f64>], radius_px: f64) -> Explained {
+fn explained(view: &FreeTargets, pose: &Pose, points: &[Vector3<f64>], radius_px: f64) -> Explained {
     let (mut object, mut image) = (Vec::new(), Vec::new());
     let mut seen = 0;
     for x in points {

@@ -1,10 +1,10 @@
-//! Where a point should be: its epipolar lines, its predicted place and the standard errors of that, photo by photo.
+//! Predicted position of a point in each photo, with its covariance, and its epipolar lines.
 //!
-//! The point is intersected from the rays it has. A ray's covariance in ideal coordinates is Σ = Σₗ + A·Cₑ·Aᵀ: of the
-//! measurement, and of the photo's exterior orientation (A its derivatives, Cₑ from the adjustment). With B the derivatives
-//! by the point, its covariance is C = (Σ Bᵀ Σ⁻¹ B)⁻¹, and its image in another photo has B·C·Bᵀ + A·Cₑ·Aᵀ. Errors that
-//! photos share (of the interior orientation, of a datum) are left out: they cancel to a large part. Where the point is
-//! measured already, its own ray takes no part in where it should be.
+//! The point is intersected from its rays. A ray's covariance in ideal coordinates is Σ = Σₗ + A·Cₑ·Aᵀ: that of the measurement, and that
+//! of the photo's exterior orientation (A its derivatives, Cₑ from the adjustment). With B the derivatives
+//! by the point, its covariance is C = (Σ Bᵀ Σ⁻¹ B)⁻¹, and that of its image in another photo is B·C·Bᵀ + A·Cₑ·Aᵀ. Errors common to all
+//! photos (of the interior orientation, of the datum) are neglected, since they largely cancel. In a photo in which the point is already
+//! measured, that measurement is not used for the prediction.
 
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix6, SMatrix, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -28,48 +28,48 @@ pub struct PredictOptions {
     pub lines_in: Option<Vec<String>>,
 }
 
-/// Where a point should be.
+/// Predicted positions of a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Identifier of the point.
     pub point: String,
-    /// Oriented photos in which it is measured and takes part.
+    /// Number of oriented photos with an enabled observation of the point.
     pub rays: usize,
-    /// Object coordinates from these rays; null below two, or where they do not meet.
+    /// Object coordinates from these rays; null for fewer than two rays, or if they do not intersect.
     pub xyz: Option<[f64; 3]>,
-    /// Their standard errors; null where a photo that sees it has none of its orientation.
+    /// Their standard errors; null if a photo that sees it has none of its orientation.
     pub sigma: Option<[f64; 3]>,
     /// Oriented photos whose orientation has no standard errors, since they are not adjusted or the adjustment has none: where one of
-    /// them takes part it is not known how far off a place may be, and no covariance is told.
+    /// them takes part the accuracy of the predicted position is not known, and no covariance is given.
     pub without_errors: Vec<String>,
     /// Every oriented photo, in the project's order.
     pub photos: Vec<PhotoPrediction>,
 }
 
-/// Where a point should be in one photo. Pixels.
+/// Predicted position of a point in one photo, pixels.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PhotoPrediction {
     /// Identifier of the photo.
     pub photo: String,
-    /// Where it is measured, taking part or not.
+    /// Measured position, enabled or not.
     pub measured: Option<[f64; 2]>,
-    /// Where the rays of the other photos have it; null below two of them, or where it is behind the camera.
+    /// Position predicted from the rays of the other photos; null for fewer than two rays, or if the point is behind the camera.
     pub place: Option<[f64; 2]>,
-    /// Covariance of that place: uu, uv, vv; null without the standard errors of the photos' orientations.
+    /// Covariance of that position: uu, uv, vv; null without the standard errors of the photos' orientations.
     pub covariance: Option<[f64; 3]>,
-    /// The part of it that comes from the measurements and the orientations that have standard errors: it is at least as much.
+    /// Lower bound of that covariance, from the measurements and from the orientations that have standard errors.
     pub least_covariance: Option<[f64; 3]>,
-    /// Whether that place lies in the picture.
+    /// Whether that position lies in the picture.
     pub inside: bool,
-    /// Distance of the measurement from that place.
+    /// Distance of the measured from the predicted position.
     pub off_px: Option<f64>,
     /// The same in standard errors of both together (Mahalanobis distance).
     pub off_sigmas: Option<f64>,
-    /// Where the ray of each other photo runs.
+    /// Epipolar lines of the rays of the other photos.
     pub lines: Vec<EpipolarLine>,
 }
 
-/// Where the ray of one photo runs in another.
+/// Epipolar line: the image of a ray of one photo in another.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EpipolarLine {
     /// The photo whose ray it is.
@@ -78,11 +78,11 @@ pub struct EpipolarLine {
     pub course: Vec<[f64; 2]>,
 }
 
-/// No measurement is taken for better than this, pixels: what is not modelled stays.
+/// Minimum standard error of a measurement, pixels, for effects that are not modelled.
 const FINEST_PX: f64 = 0.1;
-/// 99.73 % of a normal distribution of two dimensions lie within so many standard errors.
+/// Limit of the Mahalanobis distance: 99.73 % of a two-dimensional normal distribution.
 const GATE: f64 = 3.44;
-/// Steps of the difference quotients: radians, and shares of the distance.
+/// Step of the difference quotients: radians, and share of the distance.
 const STEP: f64 = 1e-6;
 
 /// An oriented photo, with the covariance of X, Y, Z, omega, phi, kappa.
@@ -90,22 +90,22 @@ struct Station {
     photo: OrientedPhoto,
     position: [f64; 3],
     rotation: [f64; 3],
-    /// None where the orientation has no standard errors.
+    /// `None` if the orientation has no standard errors.
     covariance: Option<Matrix6<f64>>,
 }
 
-/// What sights meet in.
+/// Intersection of the rays of several observations.
 #[derive(Clone, Copy)]
 struct Met {
     point: Vector3<f64>,
-    /// The part of its covariance that is known.
+    /// Covariance matrix of the point, without the contribution of photos whose orientation has no covariance.
     covariance: Matrix3<f64>,
-    /// Whether that is all of it.
-    whole: bool,
+    /// Whether the orientations of all photos contributed.
+    complete: bool,
 }
 
 /// A measurement of the point.
-struct Sight {
+struct StationObservation {
     station: usize,
     pixel: [f64; 2],
     image: [f64; 2],
@@ -114,11 +114,11 @@ struct Sight {
 
 /// Predicts where `point` should be in every oriented photo of the project.
 ///
-/// `adjustment` is the project's, for the standard errors of its photos and of unit weight; without it places are told and not how far
-/// off they may be. Of the project only cameras, photos and the point's observations are read.
+/// `adjustment` is that of the project; it gives the covariances of the photos' orientations and sigma0. Without it the positions are
+/// predicted without error ellipses. Only the cameras, the photos and the point's observations of the project are read.
 ///
 /// # Errors
-/// Those of [`Project::validate`]; [`Error::Unknown`] where the project has no such point.
+/// Those of [`Project::validate`]; [`Error::Unknown`] if the project has no such point.
 pub fn predict(
     project: &Project,
     adjustment: Option<&Adjustment>,
@@ -132,20 +132,21 @@ pub fn predict(
     let stations = stations(project, adjustment);
     let sigma0 = adjustment.and_then(|a| a.sigma0).filter(|s| s.is_finite() && *s > 0.0).unwrap_or(1.0);
     let mine = project.observations.iter().filter(|o| o.point == point).collect::<Vec<_>>();
-    let sights = mine.iter().filter(|o| o.enabled).filter_map(|o| sight(&stations, o, sigma0)).collect::<Vec<_>>();
-    let all = meet(&stations, &sights.iter().collect::<Vec<_>>());
+    let observations =
+        mine.iter().filter(|o| o.enabled).filter_map(|o| station_observation(&stations, o, sigma0)).collect::<Vec<_>>();
+    let all = meet(&stations, &observations.iter().collect::<Vec<_>>());
     let wanted = |photo: &str| options.lines_in.as_ref().is_none_or(|wanted| wanted.iter().any(|w| w == photo));
     let photos = stations.iter().enumerate().map(|(k, station)| {
-        let others = sights.iter().filter(|s| s.station != k).collect::<Vec<_>>();
-        let own = others.len() < sights.len();
+        let others = observations.iter().filter(|s| s.station != k).collect::<Vec<_>>();
+        let own = others.len() < observations.len();
         let met = if own { meet(&stations, &others) } else { all };
         let measured = mine.iter().find(|o| o.photo == station.photo.id).map(|o| [o.u, o.v]);
         let mut predicted = station.predicted(measured, met);
-        if let Some(sight) = sights.iter().find(|s| s.station == k) {
-            predicted.off_sigmas = predicted.distance(sight.pixel, sight.sigma_px);
+        if let Some(observation) = observations.iter().find(|s| s.station == k) {
+            predicted.off_sigmas = predicted.distance(observation.pixel, observation.sigma_px);
         }
         if wanted(&station.photo.id) {
-            let line = |s: &&Sight| {
+            let line = |s: &&StationObservation| {
                 let from = &stations[s.station].photo;
                 let course = epipolar_line(from, &station.photo, s.image);
                 (course.len() > 1).then(|| EpipolarLine { from: from.id.clone(), course })
@@ -155,10 +156,10 @@ pub fn predict(
         predicted
     });
     let photos = photos.collect();
-    let sigma = all.filter(|met| met.whole).map(|met| [0, 1, 2].map(|k| met.covariance[(k, k)].max(0.0).sqrt()));
+    let sigma = all.filter(|met| met.complete).map(|met| [0, 1, 2].map(|k| met.covariance[(k, k)].max(0.0).sqrt()));
     let without = stations.iter().filter(|s| s.covariance.is_none()).map(|s| s.photo.id.clone()).collect();
     let xyz = all.map(|met| met.point.into());
-    Ok(Prediction { point: point.into(), rays: sights.len(), xyz, sigma, without_errors: without, photos })
+    Ok(Prediction { point: point.into(), rays: observations.len(), xyz, sigma, without_errors: without, photos })
 }
 
 fn stations(project: &Project, adjustment: Option<&Adjustment>) -> Vec<Station> {
@@ -172,7 +173,8 @@ fn stations(project: &Project, adjustment: Option<&Adjustment>) -> Vec<Station> 
     OrientedPhoto::all(project).into_iter().filter_map(station).collect()
 }
 
-/// Covariance of a photo's six elements from their standard errors and correlations; none without all of them.
+/// Covariance matrix of a photo's six elements of exterior orientation from their standard errors and correlations; `None` if any is
+/// missing.
 fn covariance(photo: &AdjustedPhoto) -> Option<Matrix6<f64>> {
     let (position, angles) = (photo.sigma_position?, photo.sigma_rotation?);
     let rows = &photo.correlation.as_ref()?.matrix;
@@ -184,25 +186,26 @@ fn covariance(photo: &AdjustedPhoto) -> Option<Matrix6<f64>> {
     covariance.iter().all(|c| c.is_finite()).then_some(covariance)
 }
 
-fn sight(stations: &[Station], o: &Observation, sigma0: f64) -> Option<Sight> {
+/// The observation with its ray; `None` if its photo is not oriented or the pixel has no ray.
+fn station_observation(stations: &[Station], o: &Observation, sigma0: f64) -> Option<StationObservation> {
     let station = stations.iter().position(|s| s.photo.id == o.photo)?;
     let image = stations[station].photo.ray([o.u, o.v])?;
     let [su, sv] = o.sigma.both();
     let sigma_px = (0.5 * (su * su + sv * sv)).sqrt() * sigma0;
     let sigma_px = if sigma_px.is_finite() { sigma_px.max(FINEST_PX) } else { FINEST_PX };
-    Some(Sight { station, pixel: [o.u, o.v], image, sigma_px })
+    Some(StationObservation { station, pixel: [o.u, o.v], image, sigma_px })
 }
 
-/// The point that sights meet in, with its covariance.
-fn meet(stations: &[Station], sights: &[&Sight]) -> Option<Met> {
-    let in_image = |s: &Sight| s.sigma_px / stations[s.station].photo.principal_distance_px;
-    let rays = sights.iter().map(|s| {
+/// The point in which the rays of the observations intersect, with its covariance matrix.
+fn meet(stations: &[Station], observations: &[&StationObservation]) -> Option<Met> {
+    let in_image = |s: &StationObservation| s.sigma_px / stations[s.station].photo.principal_distance_px;
+    let rays = observations.iter().map(|s| {
         let pose = stations[s.station].photo.pose;
         Ray { pose, image: s.image, weight: in_image(s).powi(-2) }
     });
     let met = intersect(&rays.collect::<Vec<_>>()).ok()?;
     let mut normal = Matrix3::zeros();
-    for s in sights {
+    for s in observations {
         let station = &stations[s.station];
         let measured = Matrix2::identity() * in_image(s).powi(2);
         let weight = (measured + station.of_pose(&met.point)?).try_inverse()?;
@@ -210,9 +213,9 @@ fn meet(stations: &[Station], sights: &[&Sight]) -> Option<Met> {
         normal += by_point.transpose() * weight * by_point;
     }
     let covariance = normal.try_inverse()?;
-    let whole = sights.iter().all(|s| stations[s.station].covariance.is_some());
+    let complete = observations.iter().all(|s| stations[s.station].covariance.is_some());
     let sound = met.point.iter().chain(covariance.iter()).all(|x| x.is_finite());
-    sound.then_some(Met { point: met.point, covariance, whole })
+    sound.then_some(Met { point: met.point, covariance, complete })
 }
 
 impl Station {
@@ -222,7 +225,7 @@ impl Station {
         image_jacobian(&pose.to_camera(point)) * pose.object_to_camera
     }
 
-    /// Covariance of ideal coordinates from that of the exterior orientation, by difference quotients; nothing where that has none.
+    /// Covariance of ideal coordinates from that of the exterior orientation, by difference quotients; zero if that has no covariance.
     fn of_pose(&self, point: &Vector3<f64>) -> Option<Matrix2<f64>> {
         let Some(covariance) = self.covariance else { return Some(Matrix2::zeros()) };
         let reach = (point - Vector3::from(self.position)).norm();
@@ -248,7 +251,7 @@ impl Station {
         pixel_from_camera_point(&self.photo.camera, Vector3::new(x, y, -1.0)).map(Vector2::from)
     }
 
-    /// Where the photo should show what other photos met in.
+    /// The prediction for this photo from the intersection of the other photos' rays.
     fn predicted(&self, measured: Option<[f64; 2]>, met: Option<Met>) -> PhotoPrediction {
         let mut predicted = PhotoPrediction { photo: self.photo.id.clone(), measured, ..PhotoPrediction::default() };
         let place = || {
@@ -266,7 +269,7 @@ impl Station {
         if let Some((pixel, covariance, inside)) = place() {
             predicted.place = Some(pixel.into());
             predicted.least_covariance = Some(covariance);
-            let whole = self.covariance.is_some() && met.is_some_and(|met| met.whole);
+            let whole = self.covariance.is_some() && met.is_some_and(|met| met.complete);
             predicted.covariance = whole.then_some(covariance);
             predicted.inside = inside;
             predicted.off_px = measured.map(|[u, v]| (pixel - Vector2::new(u, v)).norm());
@@ -276,8 +279,7 @@ impl Station {
 }
 
 impl PhotoPrediction {
-    /// Half axes and angle (from u towards v) of the ellipse of so many standard errors about the place; none where these are not
-    /// known.
+    /// Semi-axes and angle (from u towards v) of the error ellipse of `sigmas` standard errors; `None` without a covariance.
     pub fn ellipse(&self, sigmas: f64) -> Option<[f64; 3]> {
         let [uu, uv, vv] = self.covariance?;
         let (mean, difference) = (0.5 * (uu + vv), 0.5 * (uu - vv));
@@ -286,8 +288,7 @@ impl PhotoPrediction {
         Some([axis(mean + radius), axis(mean - radius), 0.5 * uv.atan2(difference)])
     }
 
-    /// Distance of a measurement of standard error `sigma_px` from the place, in standard errors of both; none where these are not
-    /// known.
+    /// Mahalanobis distance of a measurement with the standard error `sigma_px` from the predicted position; `None` without a covariance.
     pub fn distance(&self, at: [f64; 2], sigma_px: f64) -> Option<f64> {
         self.covariance.and_then(|covariance| self.apart(covariance, at, sigma_px))
     }
@@ -300,8 +301,8 @@ impl PhotoPrediction {
         Some((d.transpose() * both * d)[0].max(0.0).sqrt())
     }
 
-    /// Targets that may be the point, nearest first: their places in the list, with their distances in standard errors. Without those
-    /// of the orientations there are fewer: they lie within what is known of them, and are offers, no verdicts.
+    /// Targets that may be the point, the nearest first: index in the list and distance in standard errors. If the orientations have no
+    /// standard errors, the lower bound of the covariance is used, so some targets may be missing.
     pub fn candidates(&self, targets: &[Target]) -> Vec<(usize, f64)> {
         let sigma = |t: &Target| (0.5 * (t.sigma_u.powi(2) + t.sigma_v.powi(2))).sqrt();
         let known = self.covariance.or(self.least_covariance);

@@ -6,11 +6,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::free::{MatchOptions, Matching};
 use super::gross::disagreeing;
-use super::uncoded::{MatchOptions, Matching, one_round};
+use super::uncoded::one_round;
 use super::{Doubt, Doubtful, PhotoTargets, join, poses, size};
 use crate::adjust::{adjust, apply};
 use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
+use crate::error::Result;
 use crate::project::{Observation, Project, Role};
 
 /// Turns; the search ends when nothing more is found, this only bounds its time.
@@ -23,8 +25,23 @@ fn naming(o: &Observation) -> Naming {
     (o.photo.clone(), o.point.clone(), [o.u.to_bits(), o.v.to_bits()])
 }
 
+/// Names targets of oriented photos that have no name yet.
+///
+/// `project` is oriented (better: adjusted) and holds the observations named so far; `targets` are all detected ones.
+/// Targets where the project has a control point that no photo names yet are that point, as soon as three control points are named and seen in
+/// their places. New points are called "u1", "u2" … as far as these identifiers are free; they have the diameter that their images show
+/// where the project fixes the scale. Matching and adjusting take turns until nothing more is
+/// found ([`settled`]); the project is left as it is.
+///
+/// # Errors
+/// Those of [`Project::validate`]. Photos without orientation, and targets of photos that do not exist, are skipped.
+pub fn match_uncoded(project: &Project, targets: &[PhotoTargets], options: &MatchOptions) -> Result<Matching> {
+    project.validate()?;
+    Ok(settled(project, targets, options))
+}
+
 /// Everything that is found in turns. The document is valid.
-pub(super) fn settled(project: &Project, targets: &[PhotoTargets], options: &MatchOptions) -> Matching {
+fn settled(project: &Project, targets: &[PhotoTargets], options: &MatchOptions) -> Matching {
     let mut current = project.clone();
     let mut all = Matching::default();
     let mut refused: BTreeSet<Naming> = BTreeSet::new();
@@ -98,7 +115,7 @@ fn drop_short(matching: &mut Matching) {
     matching.observations.retain(|o| !short.contains(&o.point));
 }
 
-/// The document with adjusted values, of what can be adjusted of it; none where that cannot.
+/// The document with adjusted values, of what can be adjusted of it; `None` if that cannot.
 fn adjusted(project: &Project) -> Option<Project> {
     let mut part = project.clone();
     let posed = |p: &crate::project::Photo| p.enabled && p.position.is_some() && p.rotation.is_some();

@@ -12,7 +12,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
-use super::covariance::{Datum, Transformed};
+use super::covariance::{ReferenceDatum, Transformed};
 
 /// Eigenvalues below this part of the largest belong to directions that are not determined. Variances of one matrix differ by 10⁶ for
 /// standard errors that differ by 1000; rounding of the S-transformation leaves 10⁻¹⁵.
@@ -66,8 +66,8 @@ pub fn pseudo_inverse3(matrix: &Matrix3<f64>) -> (Matrix3<f64>, usize) {
 }
 
 impl Weights {
-    /// Weights of the points that carry the datum, from their covariance in it.
-    pub fn new(points: &[usize], covariance: &Transformed, datum: &Datum) -> Self {
+    /// Weights of the points that define the datum, from their covariance in it.
+    pub fn new(points: &[usize], covariance: &Transformed, datum: &ReferenceDatum) -> Self {
         let q = covariance.matrix(points);
         let mean = q.trace() / q.nrows().max(1) as f64;
         let basis = (datum.defect > 0).then(|| datum.null_space());

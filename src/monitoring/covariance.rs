@@ -16,19 +16,19 @@ pub const DIRECTIONS: usize = 7;
 /// a line, and its turn is held by the point alone: without the limit a rounding error would be inverted.
 const LEAST_LEFT: f64 = 1e-9;
 type Directions = SMatrix<f64, 3, DIRECTIONS>;
-type Carried = SMatrix<f64, DIRECTIONS, 3>;
+type DatumRows = SMatrix<f64, DIRECTIONS, 3>;
 type Square = SMatrix<f64, DIRECTIONS, DIRECTIONS>;
 
 /// Covariance of points.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Covariance {
+pub enum PointsCovariance {
     /// Points are not correlated: a block each.
     Blocks(Vec<Matrix3<f64>>),
     /// Three rows a point.
     Full(DMatrix<f64>),
 }
 
-impl Covariance {
+impl PointsCovariance {
     /// Block of two points.
     pub fn block(&self, i: usize, j: usize) -> Matrix3<f64> {
         match self {
@@ -89,7 +89,7 @@ impl Covariance {
     }
 }
 
-fn added(mut full: DMatrix<f64>, factor: f64, blocks: &Covariance) -> DMatrix<f64> {
+fn added(mut full: DMatrix<f64>, factor: f64, blocks: &PointsCovariance) -> DMatrix<f64> {
     for k in 0..blocks.len() {
         let mut view = full.fixed_view_mut::<3, 3>(3 * k, 3 * k);
         view += blocks.block(k, k) * factor;
@@ -99,16 +99,16 @@ fn added(mut full: DMatrix<f64>, factor: f64, blocks: &Covariance) -> DMatrix<f6
 
 /// A datum: the points that carry it, and what it leaves free.
 #[derive(Clone, Debug)]
-pub struct Datum {
+pub struct ReferenceDatum {
     /// Directions at all points.
     g: Vec<Directions>,
     /// Rows of M at the datum points.
-    m: Vec<(usize, Carried)>,
+    m: Vec<(usize, DatumRows)>,
     /// Number of directions: 0, 6 or 7.
     pub defect: usize,
 }
 
-impl Datum {
+impl ReferenceDatum {
     /// Datum of the `carriers` with weights, at `points`; `defect` of 7 leaves the scale free, 6 keeps it, 0 transforms nothing. None
     /// where the carriers lie on a line.
     pub fn new(points: &[Vector3<f64>], carriers: &[(usize, f64)], defect: usize) -> Option<Self> {
@@ -127,7 +127,7 @@ impl Datum {
         for k in defect..DIRECTIONS {
             normal[(k, k)] = 1.0;
         }
-        // Weights may be of any size; what decides is how well the turns are told apart. On a line one of them has no lever.
+        // Weights may be of any size; what decides is how well the rotations can be separated. On a line one of them has no lever.
         let eigen = (normal / total).fixed_view::<6, 6>(0, 0).into_owned().symmetric_eigenvalues();
         if !(eigen.min() > 1e-10 * eigen.max()) {
             return None;
@@ -144,7 +144,7 @@ impl Datum {
     }
 
     /// K of carrier `place`: its difference in the datum of the other carriers is K times that in this datum, K = (I - G M)⁻¹ with its own
-    /// G and M. None where the others do not carry a datum.
+    /// G and M. `None` if the others do not carry a datum.
     pub fn of_others(&self, place: usize) -> Option<Matrix3<f64>> {
         let (_, m) = self.m.iter().find(|(k, _)| *k == place)?;
         let left = Matrix3::identity() - self.g[place] * m;
@@ -173,20 +173,20 @@ fn directions(x: &Vector3<f64>, defect: usize) -> Directions {
 
 /// Covariance in a datum.
 pub struct Transformed<'a> {
-    covariance: &'a Covariance,
-    datum: &'a Datum,
-    v: Vec<Carried>,
+    covariance: &'a PointsCovariance,
+    datum: &'a ReferenceDatum,
+    v: Vec<DatumRows>,
     square: Square,
 }
 
 impl<'a> Transformed<'a> {
     /// Prepares the blocks.
-    pub fn new(covariance: &'a Covariance, datum: &'a Datum) -> Self {
+    pub fn new(covariance: &'a PointsCovariance, datum: &'a ReferenceDatum) -> Self {
         let n = covariance.len();
-        let mut v = vec![Carried::zeros(); n];
+        let mut v = vec![DatumRows::zeros(); n];
         match covariance {
-            Covariance::Blocks(blocks) => datum.m.iter().for_each(|(k, m)| v[*k] += m * blocks[*k]),
-            Covariance::Full(_) => {
+            PointsCovariance::Blocks(blocks) => datum.m.iter().for_each(|(k, m)| v[*k] += m * blocks[*k]),
+            PointsCovariance::Full(_) => {
                 for (j, v) in v.iter_mut().enumerate() {
                     *v = datum.m.iter().map(|(k, m)| m * covariance.block(*k, j)).sum();
                 }
@@ -237,7 +237,7 @@ mod tests {
         for (seed, defect) in [(1, 6), (2, 7), (3, 0)] {
             let (points, c) = random(seed, 7);
             let carriers = [(0, 1.0), (2, 0.5), (3, 2.0), (6, 1.0)];
-            let datum = Datum::new(&points, &carriers, defect).unwrap();
+            let datum = ReferenceDatum::new(&points, &carriers, defect).unwrap();
             let g = DMatrix::from_fn(21, defect, |i, j| datum.g[i / 3][(i % 3, j)]);
             let mut w = DMatrix::zeros(21, 21);
             carriers.iter().for_each(|&(k, weight)| (0..3).for_each(|a| w[(3 * k + a, 3 * k + a)] = weight));
@@ -249,7 +249,7 @@ mod tests {
                 }
             };
             let expected = &s * &c * s.transpose();
-            let covariance = Covariance::Full(c.clone());
+            let covariance = PointsCovariance::Full(c.clone());
             let all: Vec<usize> = (0..7).collect();
             let found = Transformed::new(&covariance, &datum).matrix(&all);
             assert!((&found - &expected).norm() < 1e-10 * expected.norm(), "{defect}");
@@ -260,8 +260,8 @@ mod tests {
             assert!((0..21).all(|i| (moved[i / 3][i % 3] - expected[i]).abs() < 1e-10));
             // Blocks and full matrices are one thing.
             let own: Vec<_> = (0..7).map(|k| covariance.block(k, k)).collect();
-            let sparse = Covariance::Blocks(own);
-            let full = Covariance::sum(1.0, &sparse, 1.0, &Covariance::Full(DMatrix::zeros(21, 21)));
+            let sparse = PointsCovariance::Blocks(own);
+            let full = PointsCovariance::sum(1.0, &sparse, 1.0, &PointsCovariance::Full(DMatrix::zeros(21, 21)));
             let (a, b) = (Transformed::new(&sparse, &datum).matrix(&all), Transformed::new(&full, &datum).matrix(&all));
             assert!((a - b).norm() < 1e-10);
         }
@@ -271,7 +271,7 @@ mod tests {
     fn points_on_a_line_carry_no_datum() {
         let points: Vec<_> = (0..5).map(|k| Vector3::new(k as f64, 2.0 * k as f64, 1.0)).collect();
         let carriers: Vec<_> = (0..5).map(|k| (k, 1.0)).collect();
-        assert!(Datum::new(&points, &carriers, 6).is_none());
-        assert!(Datum::new(&points, &carriers, 0).is_some());
+        assert!(ReferenceDatum::new(&points, &carriers, 6).is_none());
+        assert!(ReferenceDatum::new(&points, &carriers, 0).is_some());
     }
 }

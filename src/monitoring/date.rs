@@ -1,6 +1,6 @@
 //! ISO 8601 dates as days.
 
-/// Days since 1970-01-01 of `YYYY-MM-DD`, with `Thh:mm`, `:ss` and an offset where given; none of anything else.
+/// Days since 1970-01-01 of `YYYY-MM-DD`, with `Thh:mm`, `:ss` and an offset where given; `None` for anything else.
 pub fn days(text: &str) -> Option<f64> {
     let text = text.trim();
     let (date, time) = match text.split_once(['T', ' ']) {

@@ -5,22 +5,22 @@ use nalgebra::Vector3;
 use super::LEAST;
 use super::congruence::Weights;
 use super::judgement::judged;
-use super::result::{Step, Test};
+use super::result::{EliminationStep, Test};
 use super::system::differences;
 
 /// A group is ruled out as another stable one only where it is rejected with an error probability of this times the significance: the
-/// stable points themselves are rejected as often as that says.
+/// stable points themselves are rejected at that rate.
 const DOUBTED: f64 = 0.02;
 /// Groups that are tested beside the one found: those of eight points that are half of them or more.
 const SEARCHED: f64 = 1000.0;
 
-/// What the elimination came to.
+/// Result of the elimination.
 pub struct Eliminated {
-    /// Global test of all; none where all are held.
+    /// Global test of all; `None` if all are held.
     pub first: Option<Test>,
     /// Steps.
-    pub steps: Vec<Step>,
-    /// Stable points; empty where there is no stable group.
+    pub steps: Vec<EliminationStep>,
+    /// Stable points; empty if there is no stable group.
     pub stable: Vec<usize>,
     /// Whether another group of as many points or more is congruent too, and which.
     pub other: Vec<usize>,
@@ -34,7 +34,7 @@ pub struct References<'a> {
     pub earlier: &'a [Vector3<f64>],
     /// Later ones.
     pub later: &'a [Vector3<f64>],
-    /// What the datum leaves free.
+    /// Datum defect.
     pub defect: usize,
     /// Degrees of freedom of the variance factor.
     pub f: Option<f64>,
@@ -70,7 +70,7 @@ pub fn eliminated(references: &References, all: &Weights) -> Eliminated {
         };
         (current, d) = next;
         let id = references.ids[point].clone();
-        result.steps.push(Step { removed: id, contribution: contributions[k], test: current });
+        result.steps.push(EliminationStep { removed: id, contribution: contributions[k], test: current });
     }
     result.stable = weights.points;
     if !removed.is_empty() {
@@ -89,7 +89,7 @@ fn another(references: &References, all: &Weights, stable: &[usize], removed: &[
         (weights.rank > 0 && test.passed).then_some(test.statistic)
     };
     let r = all.points.len();
-    // Against a clear majority only a group as large speaks; else one point fewer is as likely.
+    // With a clear majority only a group of the same size is an alternative; else a group with one point fewer is as probable.
     let smallest = LEAST.max(if 3 * stable.len() >= 2 * r { stable.len() } else { stable.len() - 1 });
     let deepest = r - smallest;
     let mut groups = 1.0;

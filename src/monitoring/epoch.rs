@@ -4,10 +4,11 @@ use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use super::covariance::Covariance;
+use super::bundle::{EpochNetwork, network};
+use super::covariance::PointsCovariance;
 use super::date;
 use super::request::{ControlUse, Epoch, ListedCovariance};
-use super::result::{EpochNote, LeftOut, LeftOutReason, UsedEpoch};
+use super::result::{EpochNote, LeftOutPoint, LeftOutPointReason, UsedEpoch};
 use crate::adjust::{adjust, apply};
 use crate::adjustment::{AdjustOptions, Adjustment, Robust, StatisticsChoice, Termination};
 use crate::axes::UserAxes;
@@ -32,7 +33,7 @@ pub struct Prepared {
     /// Coordinates.
     pub xyz: Vec<Vector3<f64>>,
     /// Covariance, including σ0².
-    pub covariance: Covariance,
+    pub covariance: PointsCovariance,
     /// Standard deviation of unit weight.
     pub sigma0: Option<f64>,
     /// Degrees of freedom of σ0; `None`: not known, or none.
@@ -48,7 +49,9 @@ pub struct Prepared {
     /// Datum points of its project.
     pub datum: Vec<String>,
     /// Points that cannot be used.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutPoint>,
+    /// Inputs of an adjustment of all epochs; `None` if it is not possible.
+    pub network: Option<EpochNetwork>,
     /// As reported.
     pub used: UsedEpoch,
 }
@@ -146,10 +149,10 @@ fn of_project(index: usize, epoch: &Epoch, project: &Project) -> Result<Prepared
         None => project.clone(),
     };
     let own = epoch.adjustment.as_ref().filter(|a| !release && has_all(a));
+    let free = if release { released(&started) } else { started.clone() };
     let adjustment = match own {
         Some(adjustment) => adjustment.clone(),
-        None if release => with_covariance(&released(&started), &options)?,
-        None => with_covariance(&started, &options)?,
+        None => with_covariance(&free, &options)?,
     };
     if adjustment.termination != Termination::Converged {
         return Err(unsettled());
@@ -181,7 +184,7 @@ fn of_project(index: usize, epoch: &Epoch, project: &Project) -> Result<Prepared
         day: None,
         ids: stated.points.clone(),
         xyz,
-        covariance: Covariance::Full(DMatrix::from_fn(3 * n, 3 * n, |i, j| stated.matrix[i][j])),
+        covariance: PointsCovariance::Full(DMatrix::from_fn(3 * n, 3 * n, |i, j| stated.matrix[i][j])),
         sigma0: adjustment.sigma0.filter(|s| *s > 0.0),
         redundancy: Some(adjustment.redundancy as f64).filter(|r| *r > 0.0),
         scaled: bars || (by_control && !release),
@@ -190,6 +193,8 @@ fn of_project(index: usize, epoch: &Epoch, project: &Project) -> Result<Prepared
         control,
         datum: project.datum.points.clone().unwrap_or_default(),
         left_out: Vec::new(),
+        // Control points that stay observations tie an epoch to a system of its own.
+        network: if by_control && !release { None } else { network(&free, &adjustment) },
         used: UsedEpoch { notes, ..UsedEpoch::default() },
     })
 }
@@ -231,17 +236,17 @@ fn of_list(index: usize, epoch: &Epoch) -> Result<Prepared> {
     };
     let usable = |p: &&super::request::ListedPoint| p.sigma.is_some() || in_matrix.contains_key(p.id.as_str());
     let kept: Vec<_> = points.iter().filter(usable).collect();
-    let no_sigma = || LeftOutReason::NoSigma { epoch: epoch.name.clone() };
-    let left_out = points.iter().filter(|p| !usable(p)).map(|p| LeftOut { id: p.id.clone(), reason: no_sigma() });
+    let no_sigma = || LeftOutPointReason::NoSigma { epoch: epoch.name.clone() };
+    let left_out = points.iter().filter(|p| !usable(p)).map(|p| LeftOutPoint { id: p.id.clone(), reason: no_sigma() });
     let own = |p: &super::request::ListedPoint| {
         let sigma = p.sigma.unwrap_or_default();
         Matrix3::from_diagonal(&Vector3::from(sigma.map(|s| s * s)))
     };
-    let mut covariance = Covariance::Blocks(kept.iter().map(|p| own(p)).collect());
+    let mut covariance = PointsCovariance::Blocks(kept.iter().map(|p| own(p)).collect());
     if let Some(stated) = &stated {
         let places: Vec<Option<usize>> = kept.iter().map(|p| in_matrix.get(p.id.as_str()).copied()).collect();
         let n = 3 * kept.len();
-        covariance = Covariance::Full(DMatrix::from_fn(n, n, |i, j| match (places[i / 3], places[j / 3]) {
+        covariance = PointsCovariance::Full(DMatrix::from_fn(n, n, |i, j| match (places[i / 3], places[j / 3]) {
             (Some(a), Some(b)) => stated[(3 * a + i % 3, 3 * b + j % 3)],
             (None, None) if i == j => covariance.block(i / 3, i / 3)[(i % 3, i % 3)],
             _ => 0.0,
@@ -266,6 +271,7 @@ fn of_list(index: usize, epoch: &Epoch) -> Result<Prepared> {
         control: Vec::new(),
         datum: Vec::new(),
         left_out: left_out.collect(),
+        network: None,
         used: UsedEpoch { notes, ..UsedEpoch::default() },
     })
 }
@@ -273,7 +279,7 @@ fn of_list(index: usize, epoch: &Epoch) -> Result<Prepared> {
 /// The stated matrix, made symmetric.
 ///
 /// # Errors
-/// [`Reason::EpochMatrix`] of a wrong size, [`Reason::EpochNotCovariance`] where it cannot be one, [`Error::Unknown`] for a point that is
+/// [`Reason::EpochMatrix`] of a wrong size, [`Reason::EpochNotCovariance`] if it cannot be one, [`Error::Unknown`] for a point that is
 /// not in the list.
 fn matrix(index: usize, stated: &ListedCovariance, known: &BTreeSet<&str>) -> Result<DMatrix<f64>> {
     let mut seen = BTreeSet::new();

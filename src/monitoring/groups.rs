@@ -247,7 +247,7 @@ mod tests {
         assert!(value(&affine.rotation).iter().zip(axis.iter()).all(|(a, b)| (a - 1e-3 * b).abs() < 1e-12));
     }
 
-    /// Of parameters over their standard errors: mean 0 and variance 1, and tests that reject as often as they say.
+    /// Of parameters over their standard errors: mean 0 and variance 1, and tests with their nominal rejection rate.
     #[test]
     fn standard_errors_are_those_of_draws() {
         for model in [GroupModel::Rigid, GroupModel::Similarity, GroupModel::Affine] {

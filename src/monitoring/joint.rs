@@ -10,6 +10,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+use super::bundle::Bundle;
 use super::congruence::Weights;
 use super::covariance::Transformed;
 
@@ -17,6 +18,8 @@ use super::covariance::Transformed;
 pub enum Displaced<'a> {
     /// As transformed.
     Separate(Transformed<'a>),
+    /// From one adjustment of all epochs, three rows a point.
+    Bundle(DMatrix<f64>),
     /// Under the condition.
     Joint {
         /// Without it.
@@ -62,6 +65,7 @@ impl Displaced<'_> {
     pub fn block(&self, i: usize, j: usize) -> Matrix3<f64> {
         match self {
             Self::Separate(own) => own.block(i, j),
+            Self::Bundle(matrix) => Bundle::block(matrix, i, j),
             Self::Joint { own, beside, gain, factor } => {
                 let known: Matrix3<f64> =
                     (gain.rows(3 * i, 3) * beside.rows(3 * j, 3).transpose()).fixed_view::<3, 3>(0, 0).into();

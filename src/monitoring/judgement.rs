@@ -5,7 +5,7 @@ use super::request::{Correction, VarianceChoice};
 use super::result::{Test, VarianceUsed};
 use crate::statistics::fisher::Fisher;
 
-/// Larger statistics are told as this: what is certain is certain.
+/// Larger statistics are reported as this value, to keep them finite.
 const LARGEST: f64 = 1e300;
 
 /// Tests ω/h, with ω a quadratic form that holds the variance factor, against F(h, f) at the error probability `alpha`.
@@ -30,7 +30,7 @@ pub fn variance_test(from: &Prepared, to: &Prepared, alpha: f64) -> Option<Test>
     Some(Test { statistic, f1: f2, f2: Some(f1), limit, p: (2.0 * lower.min(upper)).min(1.0), passed })
 }
 
-/// What the covariances of both epochs are multiplied by, and the degrees of freedom of the result.
+/// Variance factors of both epochs, and their degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 pub struct Factors {
     /// Of the earlier epoch.

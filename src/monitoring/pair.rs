@@ -4,17 +4,18 @@ use std::collections::{BTreeSet, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::bundle::Bundle;
 use super::congruence::Weights;
-use super::covariance::{Covariance, DIRECTIONS, Datum, Transformed};
+use super::covariance::{DIRECTIONS, PointsCovariance, ReferenceDatum, Transformed};
 use super::elimination::{References, eliminated};
 use super::epoch::{Prepared, at};
 use super::groups::{Members, movement};
 use super::joint::{Displaced, conditioned};
 use super::judgement::{Factors, factors, judged, variance_test};
-use super::points::{Moved, displacements, omega, sorted};
-use super::request::{DatumChoice, Method, Options};
+use super::points::{PointDifference, displacements, omega, sorted};
+use super::request::{ComparisonMethod, DatumChoice, Options};
 use super::result::{
-    LeftOut, LeftOutReason, Outcome, Pair, PairNote, PointRole, ReferenceFrom, RobustDatum, ScaleDifference,
+    LeftOutPoint, LeftOutPointReason, Outcome, Pair, PairNote, PointRole, ReferenceFrom, RobustDatum, ScaleDifference,
     VarianceUsed,
 };
 use super::robust::robust_datum;
@@ -32,7 +33,7 @@ const CHANCE: f64 = 3.3;
 /// Standard errors of a displacement that must not stay hidden among the stable points.
 const HIDDEN: f64 = 10.0;
 
-/// What a pair is made from.
+/// Inputs of a comparison of two epochs.
 pub struct Input<'a> {
     /// Earlier epoch.
     pub from: &'a Prepared,
@@ -45,7 +46,9 @@ pub struct Input<'a> {
     /// Names of matched points in the later epoch.
     pub renamed: &'a HashMap<String, String>,
     /// Points that could not be matched.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutPoint>,
+    /// The adjustment of all epochs, and the places of both in the list.
+    pub joint: Option<(&'a Bundle, [usize; 2])>,
 }
 
 /// Points of two epochs in one order.
@@ -55,7 +58,7 @@ pub struct Common {
     /// Coordinates of both.
     pub xyz: [Vec<Vector3<f64>>; 2],
     /// Covariances of both.
-    pub covariance: [Covariance; 2],
+    pub covariance: [PointsCovariance; 2],
 }
 
 impl Common {
@@ -78,7 +81,7 @@ impl Common {
     }
 }
 
-/// What the datum of two epochs leaves free.
+/// Datum defect of two epochs.
 pub fn defect(from: &Prepared, to: &Prepared, options: &Options) -> usize {
     match options.datum {
         DatumChoice::Given => 0,
@@ -113,7 +116,7 @@ pub fn compared(input: Input) -> Result<Pair> {
     let middle = common.middle();
     let weighted = |carriers: &[usize]| -> Vec<(usize, f64)> { carriers.iter().map(|&k| (k, 1.0)).collect() };
     let on_a_line = || fault(Reason::EpochReferenceLine);
-    let datum = Datum::new(&middle, &weighted(&reference), defect).ok_or_else(on_a_line)?;
+    let datum = ReferenceDatum::new(&middle, &weighted(&reference), defect).ok_or_else(on_a_line)?;
 
     // Step 1
     let variances = variance_test(from, to, alpha);
@@ -124,7 +127,7 @@ pub fn compared(input: Input) -> Result<Pair> {
         };
         [trace(0), trace(1)]
     });
-    let covariance = Covariance::sum(a, &common.covariance[0], b, &common.covariance[1]);
+    let covariance = PointsCovariance::sum(a, &common.covariance[0], b, &common.covariance[1]);
 
     // Steps 2 to 4
     let transformed = Transformed::new(&covariance, &datum);
@@ -136,14 +139,21 @@ pub fn compared(input: Input) -> Result<Pair> {
     let d_all = differences(earlier, later, &reference, defect).ok_or_else(on_a_line)?;
     let (robust, too_small) = second_opinion(&common, &d_all, &reference, &covariance, &middle, defect, f, options);
 
-    let datum = Datum::new(&middle, &weighted(&carriers), defect).ok_or_else(on_a_line)?;
+    let datum = ReferenceDatum::new(&middle, &weighted(&carriers), defect).ok_or_else(on_a_line)?;
     let transformed = Transformed::new(&covariance, &datum);
     let mut d = differences(earlier, later, &carriers, defect).ok_or_else(on_a_line)?;
     let weights = Weights::new(&carriers, &transformed, &datum);
     let scale = (defect == DIRECTIONS - 1).then(|| scale_difference(&weights, &middle, &d, f, alpha)).flatten();
     let weak = if found.steps.is_empty() { Vec::new() } else { weakly_controlled(&weights, &transformed, f, options) };
-    let (displaced, points_f) = match options.method {
-        Method::Joint if certain => {
+    let bundled = input.joint.and_then(|(bundle, both)| {
+        let (moved, matrix) = bundle.displacements(both, &common.ids)?;
+        d = moved;
+        Some((bundle, matrix))
+    });
+    let one_for_all = bundled.as_ref().map(|(bundle, _)| *bundle);
+    let (displaced, points_f) = match (bundled, options.method) {
+        (Some((bundle, matrix)), _) => (Displaced::Bundle(matrix), bundle.f),
+        (None, ComparisonMethod::Joint) if certain => {
             let pooled = f.filter(|_| used == VarianceUsed::Pooled);
             let (joint, sum) = conditioned(transformed, &weights, &mut d, pooled);
             (joint, sum.or(f))
@@ -153,10 +163,14 @@ pub fn compared(input: Input) -> Result<Pair> {
 
     // Step 5
     let stable: BTreeSet<usize> = found.stable.iter().copied().collect();
-    let moved = |&k: &usize| Moved {
+    let moved = |&k: &usize| PointDifference {
         id: common.ids[k].clone(),
         later_id: renamed.get(&common.ids[k]).cloned(),
-        role: if stable.contains(&k) { PointRole::Reference } else { PointRole::Object },
+        role: if one_for_all.map_or(stable.contains(&k), |bundle| bundle.stable.contains(&common.ids[k])) {
+            PointRole::Reference
+        } else {
+            PointRole::Object
+        },
         xyz: earlier[k],
         d: d[k],
         covariance: displaced.block(k, k),
@@ -190,7 +204,7 @@ pub fn compared(input: Input) -> Result<Pair> {
     left_out.extend(outside(from, to, &ignored, options, renamed));
     let held = |k: usize| common.covariance.iter().all(|c| c.block(k, k).amax() == 0.0);
     let held = (0..points.len()).filter(|&k| held(k)).map(|k| &points[k]);
-    left_out.extend(held.map(|p| LeftOut { id: p.id.clone(), reason: LeftOutReason::Held }));
+    left_out.extend(held.map(|p| LeftOutPoint { id: p.id.clone(), reason: LeftOutPointReason::Held }));
     let mut seen = HashMap::new();
     left_out.retain(|l| seen.insert((l.id.clone(), format!("{:?}", l.reason)), ()).is_none());
 
@@ -228,6 +242,15 @@ pub fn compared(input: Input) -> Result<Pair> {
     if !points_differing.is_empty() {
         notes.push(PairNote::SecondOpinionDiffers { points: points_differing });
     }
+    if let Some(bundle) = one_for_all {
+        let differs = bundle.told.cameras.iter().filter(|c| c.test.is_some_and(|test| !test.passed));
+        notes.extend(differs.map(|c| PairNote::CameraDiffers { camera: c.id.clone() }));
+    }
+    let (used, sigma0, f) = match (one_for_all, used) {
+        (Some(bundle), VarianceUsed::Given) => (used, Some(bundle.sigma0), bundle.f),
+        (Some(bundle), _) => (VarianceUsed::Pooled, Some(bundle.sigma0), bundle.f),
+        (None, _) => (used, sigma0, f),
+    };
     Ok(Pair {
         from: from.name.clone(),
         to: to.name.clone(),
@@ -275,8 +298,8 @@ fn outside(
     ignored: &BTreeSet<&str>,
     options: &Options,
     renamed: &HashMap<String, String>,
-) -> Vec<LeftOut> {
-    let mut left: Vec<LeftOut> = from.left_out.iter().chain(&to.left_out).cloned().collect();
+) -> Vec<LeftOutPoint> {
+    let mut left: Vec<LeftOutPoint> = from.left_out.iter().chain(&to.left_out).cloned().collect();
     let told: BTreeSet<String> = left.iter().map(|l| l.id.clone()).collect();
     let there = |epoch: &Prepared| epoch.ids.iter().cloned().collect::<BTreeSet<String>>();
     let (first, second) = (there(from), there(to));
@@ -284,14 +307,17 @@ fn outside(
         for id in own.difference(other) {
             let matched = is_automatic(id, &options.automatic) || renamed.contains_key(id) || told.contains(id);
             if !matched && !ignored.contains(id.as_str()) {
-                left.push(LeftOut { id: id.clone(), reason: LeftOutReason::OnlyIn { epoch: epoch.name.clone() } });
+                left.push(LeftOutPoint {
+                    id: id.clone(),
+                    reason: LeftOutPointReason::OnlyIn { epoch: epoch.name.clone() },
+                });
             }
         }
     };
     only(from, &first, &second);
     only(to, &second, &first);
     let named = first.union(&second).filter(|id| ignored.contains(id.as_str()));
-    left.extend(named.map(|id| LeftOut { id: id.clone(), reason: LeftOutReason::Ignored }));
+    left.extend(named.map(|id| LeftOutPoint { id: id.clone(), reason: LeftOutPointReason::Ignored }));
     left
 }
 
@@ -300,7 +326,7 @@ fn second_opinion(
     common: &Common,
     d: &[Vector3<f64>],
     reference: &[usize],
-    covariance: &Covariance,
+    covariance: &PointsCovariance,
     middle: &[Vector3<f64>],
     defect: usize,
     f: Option<f64>,
@@ -314,7 +340,7 @@ fn second_opinion(
     let transformed = Transformed::new(covariance, &datum);
     let points: Vec<(usize, Vector3<f64>, Matrix3<f64>)> =
         reference.iter().map(|&k| (k, d[k], transformed.block(k, k))).collect();
-    // A point that carries the datum nearly alone has no variance left, and no displacement.
+    // A point that defines the datum nearly alone has no variance left, and no displacement.
     let points: Vec<_> = points
         .into_iter()
         .map(|(k, d, c)| if omega(&d, &c).1 < 3 { (k, d, covariance.block(k, k)) } else { (k, d, c) })

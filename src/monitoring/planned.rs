@@ -13,7 +13,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::LEAST;
-use super::covariance::Datum;
+use super::covariance::ReferenceDatum;
 use super::judgement::levels;
 use super::points;
 use super::request::Options;
@@ -41,7 +41,7 @@ pub fn detectable(network: &PlannedNetwork<'_>, options: &Options) -> Vec<Option
     let n = network.places.len();
     let defect = if network.scaled { 6 } else { 7 };
     let carriers: Vec<(usize, f64)> = network.reference.iter().map(|k| (*k, 1.0)).collect();
-    let Some(datum) = Datum::new(network.places, &carriers, defect) else { return vec![None; n] };
+    let Some(datum) = ReferenceDatum::new(network.places, &carriers, defect) else { return vec![None; n] };
     let f = (network.redundancy > 0).then_some(2.0 * network.redundancy as f64);
     let objects = n - network.reference.len();
     let own_level = |tested: usize| {
@@ -73,7 +73,7 @@ pub fn detectable(network: &PlannedNetwork<'_>, options: &Options) -> Vec<Option
 mod tests {
     use super::*;
     use crate::initial::robust::{generator, uniform};
-    use crate::monitoring::covariance::{Covariance, Transformed};
+    use crate::monitoring::covariance::{PointsCovariance, Transformed};
     use nalgebra::DMatrix;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -86,15 +86,15 @@ mod tests {
             let n = 9;
             let places: Vec<Vector3<f64>> = (0..n).map(|_| Vector3::from_fn(|_, _| 50.0 * uniform(&mut g))).collect();
             let a = DMatrix::from_fn(3 * n, 3 * n, |_, _| uniform(&mut g) - 0.5);
-            let full = Covariance::Full(&a * a.transpose());
+            let full = PointsCovariance::Full(&a * a.transpose());
             let reference = [0, 2, 3, 5, 8];
             let weighted = |skipped: usize| -> Vec<(usize, f64)> {
                 reference.iter().filter(|k| **k != skipped).map(|k| (*k, 1.0)).collect()
             };
-            let datum = Datum::new(&places, &weighted(n), defect).expect("a datum");
+            let datum = ReferenceDatum::new(&places, &weighted(n), defect).expect("a datum");
             let in_datum = Transformed::new(&full, &datum);
             for k in reference {
-                let others = Datum::new(&places, &weighted(k), defect).expect("a datum");
+                let others = ReferenceDatum::new(&places, &weighted(k), defect).expect("a datum");
                 let expected = Transformed::new(&full, &others).block(k, k);
                 let by = datum.of_others(k).expect("not on a line");
                 let found = by * in_datum.block(k, k) * by.transpose();

@@ -14,8 +14,8 @@ use super::request::Options;
 use super::result::{Detectable, Displacement, Ellipsoid, PointRole, Test};
 use crate::statistics::fisher::Fisher;
 
-/// A point as it goes in.
-pub struct Moved {
+/// A point with its coordinates in two epochs.
+pub struct PointDifference {
     /// Identifier.
     pub id: String,
     /// Another name in the later epoch.
@@ -37,7 +37,12 @@ pub fn omega(d: &Vector3<f64>, covariance: &Matrix3<f64>) -> (f64, usize) {
 }
 
 /// Judges displacements. `certain`: whether there is a stable group, without which single points are not tested.
-pub fn displacements(points: Vec<Moved>, f: Option<f64>, options: &Options, certain: bool) -> Vec<Displacement> {
+pub fn displacements(
+    points: Vec<PointDifference>,
+    f: Option<f64>,
+    options: &Options,
+    certain: bool,
+) -> Vec<Displacement> {
     let alpha = options.significance;
     let forms: Vec<(f64, usize)> = points.iter().map(|p| omega(&p.d, &p.covariance)).collect();
     let tested = |k: usize| points[k].role == PointRole::Object && forms[k].1 > 0;
@@ -50,7 +55,7 @@ pub fn displacements(points: Vec<Moved>, f: Option<f64>, options: &Options, cert
     let factor = 3.0 * Fisher::new(3, f).limit(alpha);
     let mut limits: HashMap<(usize, u64), f64> = HashMap::new();
     let mut noncentralities: HashMap<(usize, u64), f64> = HashMap::new();
-    let one = |(k, point): (usize, Moved)| {
+    let one = |(k, point): (usize, PointDifference)| {
         let (omega, rank) = forms[k];
         let test = (rank > 0 && certain).then(|| {
             let limit = || Fisher::new(rank, f).limit(level[k]);
@@ -111,7 +116,7 @@ fn ellipsoid(covariance: &Matrix3<f64>, factor: f64) -> Ellipsoid {
 pub fn detectable(covariance: &Matrix3<f64>, lambda: f64) -> Detectable {
     let (inverse, _) = pseudo_inverse3(covariance);
     let axes = std::array::from_fn(|a| {
-        // Along an axis on which nothing is free there is no displacement to find.
+        // Along an axis without free coordinates no displacement can be found.
         let weight = inverse[(a, a)];
         (weight > 0.0 && covariance[(a, a)] > 0.0).then(|| (lambda / weight).sqrt()).filter(|d| d.is_finite())
     });

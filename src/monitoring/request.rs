@@ -25,7 +25,7 @@ pub struct Epoch {
     /// Its adjustment; `None`: the project is adjusted with the default options.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub adjustment: Option<Adjustment>,
-    /// What becomes of the control points of the project.
+    /// Use of the control points of the project.
     pub control: ControlUse,
     /// The list.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +47,7 @@ pub struct Epoch {
     pub scale: Option<bool>,
 }
 
-/// What becomes of the control points of a project.
+/// Use of the control points of a project.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ControlUse {
@@ -85,12 +85,12 @@ pub struct ListedCovariance {
 /// How epochs are compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Method {
+pub enum ComparisonMethod {
     /// Epochs are adjusted separately and their coordinates compared.
     #[default]
     Coordinates,
-    /// Both epochs of a pair are adjusted together, with one set of coordinates of the stable reference points and cameras of their own.
-    /// Series stay in the datum of the coordinates.
+    /// The stable reference points have one set of coordinates. Two epochs that share no camera: under the condition that these points
+    /// have not moved. More than two projects, or shared cameras: one bundle adjustment of all epochs.
     Joint,
 }
 
@@ -188,11 +188,15 @@ pub struct Options {
     /// their own.
     #[serde(deserialize_with = "identifier_option_list")]
     pub reference: Option<Vec<String>>,
-    /// Points that take no part.
+    /// Points that are not used.
     #[serde(deserialize_with = "identifiers")]
     pub ignored: Vec<String>,
     /// Method.
-    pub method: Method,
+    pub method: ComparisonMethod,
+    /// Cameras with one interior orientation in all epochs, by their identifiers; needs the method `joint`. None by default: each epoch
+    /// has cameras of its own.
+    #[serde(deserialize_with = "identifiers")]
+    pub shared_cameras: Vec<String>,
     /// Error probability of every test, 0 to 0.5.
     pub significance: f64,
     /// Correction for the number of object points.
@@ -207,7 +211,7 @@ pub struct Options {
     pub groups: Vec<Group>,
     /// Thresholds.
     pub thresholds: Option<Thresholds>,
-    /// Points whose name is one of these followed by digits alone were numbered by a program: the number is no identity, and such
+    /// Points whose name is one of these followed by digits alone were numbered by a program: the number does not identify a point, and such
     /// points are matched by their position.
     pub automatic: Vec<String>,
 }
@@ -217,7 +221,8 @@ impl Default for Options {
         Self {
             reference: None,
             ignored: Vec::new(),
-            method: Method::default(),
+            method: ComparisonMethod::default(),
+            shared_cameras: Vec::new(),
             significance: 0.05,
             correction: Correction::default(),
             power: 0.80,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::request::{GroupModel, Method};
+use super::request::{ComparisonMethod, GroupModel};
 use crate::axes::UserAxes;
 
 /// A test: passed where the statistic does not exceed the limit.
@@ -31,7 +31,7 @@ pub struct UsedEpoch {
     pub date: Option<String>,
     /// As given.
     pub temperature: Option<f64>,
-    /// Standard deviation of unit weight; null where it is not known.
+    /// Standard deviation of unit weight; null if it is not known.
     pub sigma0: Option<f64>,
     /// Redundancy; null: not known, the standard errors count as certain.
     pub redundancy: Option<f64>,
@@ -39,18 +39,18 @@ pub struct UsedEpoch {
     pub points: usize,
     /// Whether it has a scale of its own.
     pub scaled: bool,
-    /// What was assumed.
+    /// Assumptions.
     pub notes: Vec<EpochNote>,
 }
 
-/// What was assumed of an epoch.
+/// Assumptions about an epoch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "snake_case")]
 pub enum EpochNote {
     /// A list without a covariance matrix: correlations between coordinates count as 0. The datum of the list is in its standard
     /// errors, and the tests hold approximately.
     NoCovariance,
-    /// Nothing says how certain the standard errors are: they count as exact.
+    /// The accuracy of the standard errors is unknown: they count as exact.
     NoRedundancy,
     /// The project was adjusted anew as a free network, its control points as unknown points.
     ControlReleased {
@@ -72,7 +72,7 @@ pub struct ScaleDifference {
 
 /// One step of the backward elimination.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Step {
+pub struct EliminationStep {
     /// Point that became an object point.
     pub removed: String,
     /// Its share of Ω after decorrelation, χ² with three degrees of freedom where it has not moved.
@@ -90,11 +90,11 @@ pub struct RobustDatum {
     pub unstable: Vec<String>,
 }
 
-/// What a point is in a comparison.
+/// Role of a point in a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PointRole {
-    /// A stable reference point: it carries the datum.
+    /// A stable reference point: it defines the datum.
     Reference,
     /// Any other.
     Object,
@@ -156,7 +156,7 @@ pub struct Displacement {
     pub covariance: [f64; 6],
     /// Length of the displacement.
     pub length: f64,
-    /// Standard error along the displacement; null where it is 0.
+    /// Standard error along the displacement; null if it is 0.
     pub length_sigma: Option<f64>,
     /// Test against no displacement; null of a point held in both epochs.
     pub test: Option<Test>,
@@ -213,12 +213,12 @@ pub struct GroupMovement {
     pub strain: Option<Tested>,
     /// Test of all parameters: whether the group moved.
     pub test: Option<Test>,
-    /// Test of the residuals: whether the group moved as its model says; null without redundancy.
+    /// Test of the residuals: whether the movement of the group fits its model; null without redundancy.
     pub fit: Option<Test>,
     /// Residual displacements.
     pub residuals: Vec<GroupResidual>,
     /// State by the thresholds of the length of the translation; null without thresholds.
-    pub state: Option<State>,
+    pub state: Option<ThresholdState>,
     /// Why there is no movement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<GroupError>,
@@ -230,21 +230,21 @@ pub struct GroupMovement {
 pub enum GroupError {
     /// Too few of its points are in both epochs.
     TooFewPoints {
-        /// What the model needs.
+        /// Points that the model needs.
         needed: usize,
-        /// What there is.
+        /// Points in both epochs.
         given: usize,
     },
-    /// Its points lie on a line (in a plane, for the affine model), or carry the datum themselves.
+    /// Its points lie on a line (in a plane, for the affine model), or define the datum themselves.
     Undetermined,
     /// No reference points are stable.
     NoStableGroup,
 }
 
-/// Why a point took no part.
+/// Why a point was not used.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "snake_case")]
-pub enum LeftOutReason {
+pub enum LeftOutPointReason {
     /// It is in one epoch alone.
     OnlyIn {
         /// That epoch.
@@ -278,13 +278,13 @@ pub enum LeftOutReason {
     Held,
 }
 
-/// A point that took no part.
+/// A point that was not used.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LeftOut {
+pub struct LeftOutPoint {
     /// Identifier.
     pub id: String,
     /// Why.
-    pub reason: LeftOutReason,
+    pub reason: LeftOutPointReason,
 }
 
 /// Where the reference points come from.
@@ -301,7 +301,7 @@ pub enum ReferenceFrom {
     Common,
 }
 
-/// What the global test and the elimination came to.
+/// Results of the global test and of the elimination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -325,7 +325,7 @@ pub enum VarianceUsed {
     Given,
 }
 
-/// What a reader of the result must know.
+/// Notes on the result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "snake_case")]
 pub enum PairNote {
@@ -333,14 +333,14 @@ pub enum PairNote {
     VariancesDiffer,
     /// The scale of the epochs differs.
     ScaleDiffers,
-    /// The stable points are no majority of the reference points: the others may as well be the stable ones.
+    /// The stable points are not a majority of the reference points: the others could equally be the stable ones.
     NoMajority {
         /// Stable points.
         stable: usize,
         /// Reference points.
         reference: usize,
     },
-    /// Another group of reference points is congruent too, and cannot be told from the one called stable.
+    /// Another group of reference points is congruent too, and cannot be distinguished from the one reported as stable.
     AnotherGroup {
         /// Its points.
         points: Vec<String>,
@@ -351,12 +351,26 @@ pub enum PairNote {
         /// The points.
         points: Vec<String>,
     },
+    /// The interior orientation of a shared camera differs between the epochs.
+    CameraDiffers {
+        /// Camera.
+        camera: String,
+    },
+    /// Fewer than four reference points are stable in all epochs: there is no adjustment of all epochs, no camera is shared.
+    NotJoint,
+    /// All epochs together have too many points for one adjustment: they were compared in pairs.
+    TooManyTogether {
+        /// Points of all epochs, the common ones counted once.
+        points: usize,
+        /// At most so many.
+        limit: usize,
+    },
     /// The robust datum finds other points unstable.
     SecondOpinionDiffers {
         /// Points that are judged differently.
         points: Vec<String>,
     },
-    /// The displacements of the reference points, the moved ones apart, are larger than the standard errors say.
+    /// The displacements of the reference points, the moved ones apart, are larger than their standard errors.
     SigmasTooSmall {
         /// By about this factor: root of the median of their tests over the expected median.
         factor: f64,
@@ -377,19 +391,19 @@ pub struct Pair {
     pub variance_test: Option<Test>,
     /// Variance factor of the tests.
     pub variance: VarianceUsed,
-    /// Standard deviation of unit weight of the tests; null where each epoch has its own.
+    /// Standard deviation of unit weight of the tests; null if each epoch has its own.
     pub sigma0: Option<f64>,
     /// Degrees of freedom of the variance factor; null: infinitely many.
     pub redundancy: Option<f64>,
     /// Where the reference points come from.
     pub reference_from: ReferenceFrom,
-    /// Difference of scale; null where one epoch has none or nothing was transformed.
+    /// Difference of scale; null if one epoch has none or nothing was transformed.
     pub scale: Option<ScaleDifference>,
-    /// Global congruence test of all reference points; null where all are held.
+    /// Global congruence test of all reference points; null if all are held.
     pub global_test: Option<Test>,
     /// Elimination.
-    pub steps: Vec<Step>,
-    /// What it came to.
+    pub steps: Vec<EliminationStep>,
+    /// Result.
     pub outcome: Outcome,
     /// Stable reference points.
     pub stable: Vec<String>,
@@ -401,16 +415,16 @@ pub struct Pair {
     pub points: Vec<Displacement>,
     /// Groups.
     pub groups: Vec<GroupMovement>,
-    /// Points that took no part.
-    pub left_out: Vec<LeftOut>,
-    /// What must be known.
+    /// Points that were not used.
+    pub left_out: Vec<LeftOutPoint>,
+    /// Note.
     pub notes: Vec<PairNote>,
 }
 
 /// State of a point by the thresholds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum State {
+pub enum ThresholdState {
     /// Below both.
     Quiet,
     /// From the first on.
@@ -447,17 +461,49 @@ pub struct Series {
     /// Test against 0.
     pub velocity_test: Option<Test>,
     /// By the length of the last displacement; null without thresholds.
-    pub state: Option<State>,
+    pub state: Option<ThresholdState>,
+}
+
+/// A camera with one interior orientation in all epochs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SharedCamera {
+    /// Identifier.
+    pub id: String,
+    /// Test of one interior orientation against one an epoch; null if no parameter of it is estimated.
+    pub test: Option<Test>,
+}
+
+/// One bundle adjustment of all epochs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointAdjustment {
+    /// Points with one set of coordinates: stable in every pair with the first epoch.
+    pub points: Vec<String>,
+    /// Shared cameras; all others have an interior orientation an epoch.
+    pub cameras: Vec<SharedCamera>,
+    /// Standard deviation of unit weight.
+    pub sigma0: Option<f64>,
+    /// Redundancy.
+    pub redundancy: usize,
+}
+
+impl JointAdjustment {
+    /// Identifiers of the shared cameras.
+    pub fn shared(&self) -> Vec<String> {
+        self.cameras.iter().map(|camera| camera.id.clone()).collect()
+    }
 }
 
 /// Comparison of epochs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Monitoring {
     /// Method.
-    pub method: Method,
-    /// Unit; null where none of the epochs says it.
+    pub method: ComparisonMethod,
+    /// The adjustment of all epochs together; null if epochs were compared in pairs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<JointAdjustment>,
+    /// Unit; null if no epoch has one.
     pub unit: Option<String>,
-    /// Letters and order of coordinates, as the first project that says them; null: X, Y, Z. Triples here stay X, Y, Z.
+    /// Letters and order of coordinates of the first project that has them; null: X, Y, Z. Triples here stay X, Y, Z.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axes: Option<UserAxes>,
     /// Epochs.
@@ -466,7 +512,7 @@ pub struct Monitoring {
     pub pairs: Vec<Pair>,
     /// Points through the epochs.
     pub series: Vec<Series>,
-    /// Datum of the series: reference points stable in all pairs with the first epoch; empty where fewer than four are, and values
+    /// Datum of the series: reference points stable in all pairs with the first epoch; empty if fewer than four are, and values
     /// are in the datum of their pair.
     pub series_datum: Vec<String>,
 }

@@ -6,9 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, SVector, Vector3};
 
-use super::covariance::{Datum, Transformed};
+use super::bundle::Bundle;
+use super::covariance::{ReferenceDatum, Transformed};
 use super::epoch::Prepared;
 use super::pair::{Common, defect};
 use super::points::single;
@@ -21,27 +22,32 @@ use super::{LEAST, state_of};
 const DATED: usize = 3;
 
 /// An epoch's place of a point, relative to that in the first, with its own covariance.
-struct Place {
+struct EpochPosition {
     epoch: usize,
     d: Vector3<f64>,
     covariance: Matrix3<f64>,
 }
 
 /// The series, and its datum.
-pub fn series(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<Series>, Vec<String>) {
+pub fn series(
+    epochs: &[Prepared],
+    pairs: &[Pair],
+    joint: Option<&Bundle>,
+    options: &Options,
+) -> (Vec<Series>, Vec<String>) {
     // Pairs with the first epoch come first.
     let pairs = &pairs[..epochs.len() - 1];
-    let stable = |pair: &Pair| pair.stable.iter().cloned().collect::<BTreeSet<String>>();
-    let datum = pairs.iter().map(stable).reduce(|a, b| a.intersection(&b).cloned().collect()).unwrap_or_default();
-    let datum: Vec<String> = if datum.len() >= LEAST { datum.into_iter().collect() } else { Vec::new() };
+    let datum = stable_in_all(pairs);
+    let datum: Vec<String> = if datum.len() >= LEAST { datum } else { Vec::new() };
     let (factors, f) = variance(epochs, pairs, options);
+    let f = joint.map_or(f, |bundle| bundle.f);
     let mut values: BTreeMap<String, Vec<SeriesValue>> = BTreeMap::new();
-    let mut places: BTreeMap<String, Vec<Place>> = BTreeMap::new();
+    let mut places: BTreeMap<String, Vec<EpochPosition>> = BTreeMap::new();
     let mut single_datum = !datum.is_empty();
     for (k, pair) in pairs.iter().enumerate() {
         let later = k + 1;
         match in_datum(&epochs[0], &epochs[later], &datum, [factors[0], factors[later]], options) {
-            Some(found) if !datum.is_empty() => {
+            Some(found) if joint.is_none() && !datum.is_empty() => {
                 for (id, d, [first, own]) in found {
                     let sum = first + own;
                     let sigma = std::array::from_fn(|a| sum[(a, a)].max(0.0).sqrt());
@@ -49,12 +55,13 @@ pub fn series(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<Se
                     values.entry(id.clone()).or_default().push(value);
                     let known = places.entry(id).or_default();
                     if known.is_empty() {
-                        known.push(Place { epoch: 0, d: Vector3::zeros(), covariance: first });
+                        known.push(EpochPosition { epoch: 0, d: Vector3::zeros(), covariance: first });
                     }
-                    known.push(Place { epoch: later, d, covariance: own });
+                    known.push(EpochPosition { epoch: later, d, covariance: own });
                 }
             }
             _ => {
+                // One adjustment of all epochs has one datum, and its pairs are of it.
                 single_datum = false;
                 for point in &pair.points {
                     let epoch = pair.to.clone();
@@ -66,7 +73,11 @@ pub fn series(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<Se
     }
     let order = epochs[0].ids.iter().filter_map(|id| Some((id.clone(), values.remove(id)?)));
     let series = order.map(|(id, values)| {
-        let velocity = single_datum.then(|| velocity(epochs, places.get(&id)?)).flatten();
+        let velocity = match joint {
+            Some(bundle) if bundle.stable.contains(&id) => None,
+            Some(bundle) => joint_velocity(epochs, bundle, &id),
+            None => single_datum.then(|| velocity(epochs, places.get(&id)?)).flatten(),
+        };
         let last = values.last().map_or(0.0, |value| Vector3::from(value.difference).norm());
         let state =
             options.thresholds.as_ref().map(|limits| state_of(last, limits.points.get(&id).unwrap_or(&limits.all)));
@@ -81,6 +92,13 @@ pub fn series(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<Se
         }
     });
     (series.collect(), datum)
+}
+
+/// Reference points that are stable in all of these pairs.
+pub fn stable_in_all(pairs: &[Pair]) -> Vec<String> {
+    let stable = |pair: &Pair| pair.stable.iter().cloned().collect::<BTreeSet<String>>();
+    let all = pairs.iter().map(stable).reduce(|a, b| a.intersection(&b).cloned().collect()).unwrap_or_default();
+    all.into_iter().collect()
 }
 
 /// Factors on the covariances of all epochs, and the degrees of freedom: pooled over all where every pair was.
@@ -98,16 +116,16 @@ fn variance(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<f64>
     (vec![1.0; epochs.len()], fewest)
 }
 
-type Found = (String, Vector3<f64>, [Matrix3<f64>; 2]);
+type DatumDisplacement = (String, Vector3<f64>, [Matrix3<f64>; 2]);
 
-/// Displacements in the datum of the series with the covariances of both epochs. None where it does not reach.
+/// Displacements in the datum of the series with the covariances of both epochs. `None` if it does not reach.
 fn in_datum(
     first: &Prepared,
     later: &Prepared,
     datum: &[String],
     factors: [f64; 2],
     options: &Options,
-) -> Option<Vec<Found>> {
+) -> Option<Vec<DatumDisplacement>> {
     let ignored: BTreeSet<&str> = options.ignored.iter().map(String::as_str).collect();
     let common = Common::of(first, later, &ignored);
     let wanted: BTreeSet<&str> = datum.iter().map(String::as_str).collect();
@@ -115,16 +133,50 @@ fn in_datum(
     let defect = defect(first, later, options);
     let weighted: Vec<(usize, f64)> = carriers.iter().map(|&k| (k, 1.0)).collect();
     let middle = common.middle();
-    let system = Datum::new(&middle, &weighted, defect)?;
+    let system = ReferenceDatum::new(&middle, &weighted, defect)?;
     let d = differences(&common.xyz[0], &common.xyz[1], &carriers, defect)?;
     let own: [Transformed; 2] = std::array::from_fn(|e| Transformed::new(&common.covariance[e], &system));
     let one = |k: usize| (common.ids[k].clone(), d[k], std::array::from_fn(|e| own[e].block(k, k) * factors[e]));
     Some((0..common.ids.len()).map(one).collect())
 }
 
+/// As [`velocity`], with the correlations between the epochs of one adjustment.
+fn joint_velocity(
+    epochs: &[Prepared],
+    bundle: &Bundle,
+    id: &str,
+) -> Option<(Vector3<f64>, Matrix3<f64>, Vector3<f64>)> {
+    let (there, x, c) = bundle.places(id, epochs.len());
+    let rows: Vec<usize> = (0..there.len()).filter(|&i| epochs[there[i]].day.is_some()).collect();
+    let day = |i: usize| epochs[there[rows[i]]].day.unwrap_or_default();
+    let mut days: Vec<f64> = (0..rows.len()).map(day).collect();
+    days.sort_by(f64::total_cmp);
+    days.dedup();
+    if days.len() < DATED || there[0] != 0 {
+        return None;
+    }
+    let (first, span) = (days[0], days[days.len() - 1] - days[0]);
+    let n = 3 * rows.len();
+    let row = |i: usize| 3 * rows[i / 3] + i % 3;
+    let y = DVector::from_fn(n, |i, _| x[row(i)] - x[i % 3]);
+    let weight = DMatrix::from_fn(n, n, |i, j| c[(row(i), row(j))]).try_inverse()?;
+    let design = DMatrix::from_fn(n, 6, |i, j| match (i % 3 == j % 3, j < 3) {
+        (false, _) => 0.0,
+        (true, true) => 1.0,
+        (true, false) => (day(i / 3) - first) / span,
+    });
+    let inverse = (design.transpose() * &weight * &design).try_inverse()?;
+    let found = &inverse * design.transpose() * weight * y;
+    let v = found.fixed_rows::<3>(3) / span;
+    let c: Matrix3<f64> = inverse.fixed_view::<3, 3>(3, 3) / (span * span);
+    let start: Vector3<f64> = found.fixed_rows::<3>(0).into();
+    (v.iter().chain(c.iter()).chain(start.iter()).all(|x| x.is_finite())).then_some((v, c, start))
+}
+
 /// Linear velocity per day, its covariance, and the line at the earliest date.
-fn velocity(epochs: &[Prepared], places: &[Place]) -> Option<(Vector3<f64>, Matrix3<f64>, Vector3<f64>)> {
-    let dated: Vec<(f64, &Place)> = places.iter().filter_map(|place| Some((epochs[place.epoch].day?, place))).collect();
+fn velocity(epochs: &[Prepared], places: &[EpochPosition]) -> Option<(Vector3<f64>, Matrix3<f64>, Vector3<f64>)> {
+    let dated: Vec<(f64, &EpochPosition)> =
+        places.iter().filter_map(|place| Some((epochs[place.epoch].day?, place))).collect();
     let mut days: Vec<f64> = dated.iter().map(|(day, _)| *day).collect();
     days.sort_by(f64::total_cmp);
     days.dedup();

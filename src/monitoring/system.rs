@@ -1,6 +1,6 @@
-//! Epochs in one system, and who is who in them.
+//! Epochs in one coordinate system, and identification of their points.
 //!
-//! Every epoch is carried onto the first one by the similarity of the points that agree ([`similarity::fit_robust`]), so that what follows is
+//! Every epoch is transformed to the first one by the similarity of the points that agree ([`similarity::fit_robust`]), so that what follows is
 //! linear in small differences. Points that a program has numbered are matched after that, by their positions: a pair is taken where each is
 //! nearest to the other, nearer than a third of the distance to any other point of either epoch, and no farther than identified points
 //! have moved. Anything else is listed.
@@ -11,9 +11,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::epoch::{Prepared, at};
 use super::request::DatumChoice;
-use super::result::{LeftOut, LeftOutReason};
+use super::result::{LeftOutPoint, LeftOutPointReason};
 use crate::error::{Error, Reason, Result};
-use crate::initial::Spread;
+use crate::initial::PrincipalAxes;
 use crate::initial::robust::quantile;
 use crate::initial::similarity::{self, Similarity};
 
@@ -38,13 +38,13 @@ pub fn is_automatic(id: &str, prefixes: &[String]) -> bool {
     prefixes.iter().any(|prefix| id.strip_prefix(prefix.as_str()).is_some_and(numbered))
 }
 
-/// What carrying an epoch onto the first one found.
+/// Result of transforming an epoch onto the first one.
 #[derive(Clone, Debug, Default)]
 pub struct Carried {
     /// Own names of points that were matched under another one, by the name in the first epoch.
     pub renamed: HashMap<String, String>,
     /// Points that could not be matched.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<LeftOutPoint>,
 }
 
 /// Carries an epoch onto the first one and matches what is numbered automatically. `anchors` are points to prefer.
@@ -102,7 +102,7 @@ fn transform(first: &Prepared, epoch: &Prepared, pairs: &[(usize, usize)]) -> st
     let sigma =
         |&(i, j): &(usize, usize)| (first.covariance.block(i, i).trace() + epoch.covariance.block(j, j).trace()).sqrt();
     let sigmas: Vec<f64> = pairs.iter().map(sigma).collect();
-    let extent = Spread::of(&target).map_or(0.0, |spread| spread.extent.norm());
+    let extent = PrincipalAxes::of(&target).map_or(0.0, |spread| spread.extent.norm());
     let name = epoch.name.clone();
     if direct > 10.0 * quantile(&sigmas, 0.5) {
         let mirror: Vec<_> = source.iter().map(|p| Vector3::new(-p.x, p.y, p.z)).collect();
@@ -154,15 +154,15 @@ fn matched(
     let mut seen = BTreeSet::new();
     let mut kept: Vec<usize> = (0..epoch.ids.len()).filter(|&j| !is_number(&epoch.ids[j])).collect();
     for &j in &theirs {
-        let left = |reason| LeftOut { id: epoch.ids[j].clone(), reason };
+        let left = |reason| LeftOutPoint { id: epoch.ids[j].clone(), reason };
         if !identified {
-            carried.left_out.push(left(LeftOutReason::NoIdentity { epoch: epoch.name.clone() }));
+            carried.left_out.push(left(LeftOutPointReason::NoIdentity { epoch: epoch.name.clone() }));
             continue;
         }
         let candidates: Vec<usize> = ours.iter().copied().filter(|&i| distance(i, j) <= reach(i, j)).collect();
         let best = nearest(&mut candidates.iter().map(|&i| (i, distance(i, j))));
         let Some((i, apart)) = best else {
-            carried.left_out.push(left(LeftOutReason::NoCounterpart { epoch: epoch.name.clone() }));
+            carried.left_out.push(left(LeftOutPointReason::NoCounterpart { epoch: epoch.name.clone() }));
             continue;
         };
         let back = nearest(&mut theirs.iter().map(|&k| (k, distance(i, k)))).map(|(k, _)| k);
@@ -176,14 +176,17 @@ fn matched(
         } else {
             seen.extend(&candidates);
             let candidates = candidates.iter().take(10).map(|&i| first.ids[i].clone()).collect();
-            carried.left_out.push(left(LeftOutReason::Ambiguous { epoch: epoch.name.clone(), candidates }));
+            carried.left_out.push(left(LeftOutPointReason::Ambiguous { epoch: epoch.name.clone(), candidates }));
         }
     }
     let unseen = ours.iter().filter(|i| !seen.contains(i)).map(|&i| {
         let epoch = first.name.clone();
-        let reason =
-            if identified { LeftOutReason::NoCounterpart { epoch } } else { LeftOutReason::NoIdentity { epoch } };
-        LeftOut { id: first.ids[i].clone(), reason }
+        let reason = if identified {
+            LeftOutPointReason::NoCounterpart { epoch }
+        } else {
+            LeftOutPointReason::NoIdentity { epoch }
+        };
+        LeftOutPoint { id: first.ids[i].clone(), reason }
     });
     carried.left_out.extend(unseen);
     kept.sort_unstable();
@@ -202,7 +205,7 @@ fn matched(
     carried
 }
 
-/// The rotation, shift and, where it is free, scale of least squares that carries the later coordinates of the carriers onto the earlier
+/// The rotation, shift and, where it is free, scale of least squares that transforms the later coordinates of the carriers to the earlier
 /// ones: differences after it are those of the datum of these points, without linearisation.
 pub fn differences(
     earlier: &[Vector3<f64>],
@@ -225,7 +228,7 @@ pub fn differences(
     let one = |(a, b): (&Vector3<f64>, &Vector3<f64>)| b - a + shift + turn * (b - transform.source_centroid);
     Some(earlier.iter().zip(later).map(one).collect())
 }
-/// A number of so many significant digits: more of them say nothing in a sentence.
+/// A number rounded to so many significant digits, for sentences.
 fn digits(value: f64, digits: i32) -> f64 {
     let power = 10f64.powi(digits - 1 - value.abs().log10().floor().clamp(-200.0, 200.0) as i32);
     (value * power).round() / power

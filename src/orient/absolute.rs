@@ -3,19 +3,19 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::block::{Block, Mark};
+use super::block::{BlockPoint, OrientationBlock};
 use super::bridge;
 use crate::initial::robust::quantile;
 use crate::initial::similarity::{Similarity, fit_robust};
-use crate::initial::{Pose, Spread};
+use crate::initial::{Pose, PrincipalAxes};
 use crate::project::{Distance, Project};
 
 /// Tolerances of a measurement within which points of two models agree: both are extrapolated.
 const WIDE: f64 = 20.0;
 
-/// Where the coordinate system comes from.
+/// Source of the coordinate system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Frame {
+pub(super) enum DatumSource {
     /// Points with given coordinates.
     Known,
     /// Given orientations of photos.
@@ -25,9 +25,9 @@ pub(super) enum Frame {
 }
 
 /// Moves the block into the system of the known points it holds; false with fewer than three, or only ones on a line.
-pub(super) fn to_known(block: &mut Block) -> bool {
-    let with_both = |m: &Mark| m.xyz.zip(m.known).map(|pair| (m.control, pair));
-    let all: Vec<_> = block.marks.iter().filter_map(with_both).collect();
+pub(super) fn to_known(block: &mut OrientationBlock) -> bool {
+    let with_both = |m: &BlockPoint| m.xyz.zip(m.known).map(|pair| (m.control, pair));
+    let all: Vec<_> = block.points.iter().filter_map(with_both).collect();
     // Control points decide where there are enough of them: other given coordinates are initial values.
     let control: Vec<_> = all.iter().copied().filter(|(control, _)| *control).collect();
     [control, all].into_iter().any(|pairs| {
@@ -42,17 +42,17 @@ pub(super) fn to_known(block: &mut Block) -> bool {
 const FEWEST_AGREEING: usize = 4;
 const AGREEING: f64 = 0.5;
 
-/// The block with a model of other photos joined to it; none where what both have does not bear that out.
+/// The block with a model of other photos joined to it; `None` if their common points do not support it.
 ///
 /// Tried are the similarity over common points and projection centres, and for every photo that both have oriented the
 /// one that keeps its pose and takes the scale from the distances of common points. What decides is how many common
 /// points of the model appear where the block's photos show them, and the other way round. Where too few points are
 /// determined in both, photos of either are oriented relative to each other ([`bridge`]).
-pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
+pub(super) fn joined(block: &OrientationBlock, model: &OrientationBlock) -> Option<OrientationBlock> {
     let points: Vec<(usize, Vector3<f64>, Vector3<f64>)> =
-        (0..block.marks.len()).filter_map(|k| Some((k, model.marks[k].xyz?, block.marks[k].xyz?))).collect();
+        (0..block.points.len()).filter_map(|k| Some((k, model.points[k].xyz?, block.points[k].xyz?))).collect();
     let photos: Vec<(Pose, Pose)> =
-        model.views.iter().zip(&block.views).filter_map(|(m, b)| m.pose.zip(b.pose)).collect();
+        model.photos.iter().zip(&block.photos).filter_map(|(m, b)| m.pose.zip(b.pose)).collect();
     let mut tried: Vec<Similarity> = Vec::new();
     let (mut source, mut target): (Vec<_>, Vec<_>) = points.iter().map(|(_, m, b)| (*m, *b)).unzip();
     tried.extend(fit_robust(&source, &target, 0).ok().map(|(fit, _)| fit.transform));
@@ -72,7 +72,7 @@ pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
         let scale = quantile(&ratios, 0.5);
         tried.push(Similarity { scale, rotation, source_centroid: m.centre, target_centroid: b.centre });
     }
-    let mut best: Option<(usize, usize, Block)> = None;
+    let mut best: Option<(usize, usize, OrientationBlock)> = None;
     for similarity in tried {
         let mut moved = model.clone();
         transform(&mut moved, &similarity);
@@ -93,71 +93,75 @@ pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
 }
 
 /// Of the common points, those whose place in one model appears where a photo of the other shows it, both ways.
-fn agreement(block: &Block, moved: &Block, common: &[usize]) -> (usize, usize) {
-    let appears = |point: &Vector3<f64>, model: &Block, k: usize| {
-        let sights = model.marks[k].sights.iter().filter(|&&s| model.sights[s].taken);
-        let misfits = sights.filter_map(|&s| {
-            let (pose, ray) = (model.views[model.sights[s].photo].pose?, model.sights[s].ray?);
-            let photo = model.sights[s].photo;
+fn agreement(block: &OrientationBlock, moved: &OrientationBlock, common: &[usize]) -> (usize, usize) {
+    let appears = |point: &Vector3<f64>, model: &OrientationBlock, k: usize| {
+        let observations = model.points[k].observations.iter().filter(|&&s| model.observations[s].taken);
+        let misfits = observations.filter_map(|&s| {
+            let (pose, ray) = (model.photos[model.observations[s].photo].pose?, model.observations[s].ray?);
+            let photo = model.observations[s].photo;
             Some(pose.misfit(point, ray) * model.pixels_per_unit(photo) / model.tolerance_px(photo))
         });
         let lengths: Vec<f64> = misfits.collect();
         !lengths.is_empty() && quantile(&lengths, 0.5) <= WIDE
     };
     let agreeing = common.iter().filter(|&&k| {
-        let (Some(own), Some(other)) = (block.marks[k].xyz, moved.marks[k].xyz) else { return false };
+        let (Some(own), Some(other)) = (block.points[k].xyz, moved.points[k].xyz) else { return false };
         appears(&other, block, k) && appears(&own, moved, k)
     });
     (agreeing.count(), common.len())
 }
 
 /// The block with what it lacks taken from a model in the same system, and with it which measurements agree there. All are compared once
-/// more: a few that one model takes and the other contradicts carry the next adjustment away.
-pub(super) fn merged(mut block: Block, model: Block) -> Block {
-    for (sight, other) in block.sights.iter_mut().zip(&model.sights) {
-        if block.views[sight.photo].pose.is_none() && model.views[sight.photo].pose.is_some() {
-            sight.taken = other.taken;
+/// more: a few that one model takes and the other contradicts make the next adjustment fail.
+pub(super) fn merged(mut block: OrientationBlock, model: OrientationBlock) -> OrientationBlock {
+    for (observation, other) in block.observations.iter_mut().zip(&model.observations) {
+        if block.photos[observation.photo].pose.is_none() && model.photos[observation.photo].pose.is_some() {
+            observation.taken = other.taken;
         }
     }
-    for (view, other) in block.views.iter_mut().zip(model.views) {
-        view.pose = view.pose.or(other.pose);
+    for (block_photo, other) in block.photos.iter_mut().zip(model.photos) {
+        block_photo.pose = block_photo.pose.or(other.pose);
     }
-    for (mark, other) in block.marks.iter_mut().zip(model.marks) {
-        mark.xyz = mark.xyz.or(other.xyz);
+    for (block_point, other) in block.points.iter_mut().zip(model.points) {
+        block_point.xyz = block_point.xyz.or(other.xyz);
     }
     block.review();
     block
 }
 
-fn transform(block: &mut Block, similarity: &Similarity) {
-    for view in &mut block.views {
-        view.pose = view.pose.map(|pose| similarity.pose(&pose));
+fn transform(block: &mut OrientationBlock, similarity: &Similarity) {
+    for block_photo in &mut block.photos {
+        block_photo.pose = block_photo.pose.map(|pose| similarity.pose(&pose));
     }
-    for mark in &mut block.marks {
-        mark.xyz = mark.xyz.map(|xyz| similarity.point(&xyz));
+    for block_point in &mut block.points {
+        block_point.xyz = block_point.xyz.map(|xyz| similarity.point(&xyz));
     }
 }
 
-/// Gives a model without known points a scale and a place; the second value tells whether the scale was measured.
+/// Gives a model without known points a scale and a place; the second value is whether the scale was measured.
 ///
 /// Scale: the median of length over model length of the distances, or of two known points, else the object's rms extent
 /// becomes 1 for want of anything better. Place: that of a photo oriented in `before`, else the principal axes of the
 /// object with Z towards the cameras and X to the right of the first of them.
-pub(super) fn to_own(block: &mut Block, project: &Project, before: &Block) -> (Option<Frame>, bool) {
-    let points: Vec<Vector3<f64>> = block.marks.iter().filter_map(|m| m.xyz).collect();
-    let Ok(spread) = Spread::of(&points) else { return (None, false) };
+pub(super) fn to_own(
+    block: &mut OrientationBlock,
+    project: &Project,
+    before: &OrientationBlock,
+) -> (Option<DatumSource>, bool) {
+    let points: Vec<Vector3<f64>> = block.points.iter().filter_map(|m| m.xyz).collect();
+    let Ok(spread) = PrincipalAxes::of(&points) else { return (None, false) };
     let measured = scale(block, &project.distances, project);
     let size = spread.extent.norm();
     let factor = measured.unwrap_or(if size > 0.0 { 1.0 / size } else { 1.0 });
-    let given = before.views.iter().zip(&block.views).find_map(|(b, m)| b.pose.zip(m.pose));
+    let given = before.photos.iter().zip(&block.photos).find_map(|(b, m)| b.pose.zip(m.pose));
     if let Some((pose, model)) = given {
         let rotation = pose.object_to_camera.tr_mul(&model.object_to_camera);
         let similarity =
             Similarity { scale: factor, rotation, source_centroid: model.centre, target_centroid: pose.centre };
         transform(block, &similarity);
-        return (Some(Frame::GivenPhotos), measured.is_some());
+        return (Some(DatumSource::GivenPhotos), measured.is_some());
     }
-    let poses: Vec<Pose> = block.views.iter().filter_map(|v| v.pose).collect();
+    let poses: Vec<Pose> = block.photos.iter().filter_map(|v| v.pose).collect();
     let cameras = poses.iter().map(|p| p.centre - spread.centroid).sum::<Vector3<f64>>();
     let mut z = spread.axes.column(2).into_owned();
     if z.dot(&cameras) < 0.0 {
@@ -170,21 +174,21 @@ pub(super) fn to_own(block: &mut Block, project: &Project, before: &Block) -> (O
     let similarity =
         Similarity { scale: factor, rotation, source_centroid: spread.centroid, target_centroid: Vector3::zeros() };
     transform(block, &similarity);
-    (Some(Frame::Own), measured.is_some())
+    (Some(DatumSource::Own), measured.is_some())
 }
 
 /// Object length over model length, by the median over the usable distances, else by two known points.
-fn scale(block: &Block, distances: &[Distance], project: &Project) -> Option<f64> {
+fn scale(block: &OrientationBlock, distances: &[Distance], project: &Project) -> Option<f64> {
     let place = |id: &str| project.points.iter().position(|p| p.id == id);
     let of_distance = |d: &Distance| {
-        let (from, to) = (block.marks[place(&d.from)?].xyz?, block.marks[place(&d.to)?].xyz?);
+        let (from, to) = (block.points[place(&d.from)?].xyz?, block.points[place(&d.to)?].xyz?);
         Some(d.length / (from - to).norm()).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
     };
     let ratios: Vec<f64> = distances.iter().filter(|d| !d.check).filter_map(of_distance).collect();
     if !ratios.is_empty() {
         return Some(quantile(&ratios, 0.5));
     }
-    let known: Vec<_> = block.marks.iter().filter_map(|m| m.xyz.zip(m.known)).collect();
+    let known: Vec<_> = block.points.iter().filter_map(|m| m.xyz.zip(m.known)).collect();
     let [(a, known_a), .., (b, known_b)] = known[..] else { return None };
     Some((known_a - known_b).norm() / (a - b).norm()).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
 }

@@ -1,31 +1,32 @@
 //! Photos that known points alone orient, where a second orientation fits as well.
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::note::Note;
 use crate::initial::resection::space_resection;
 use crate::project::Project;
 use crate::rotation;
 
-/// Points beyond which a second minimum is far worse unless they lie in a plane, and the most that are looked at.
+/// Points beyond which a second minimum is far worse unless they lie in a plane, and the most that are examined.
 const MOST_POINTS: usize = 60;
 /// Difference of the sums of squares, over the variance, below which the better of two is chance: one in a thousand for
 /// one degree of freedom.
 const CHANCE: f64 = 10.83;
 
-/// A note for every photo whose second-best orientation cannot be told from the best. Only photos whose every agreeing
+/// A note for every photo whose second-best orientation cannot be distinguished from the best. Only photos whose every agreeing
 /// measurement is of a given point are asked: others are decided by the network.
-pub(super) fn notes(project: &Project, block: &Block) -> Vec<Note> {
+pub(super) fn notes(project: &Project, block: &OrientationBlock) -> Vec<Note> {
     if !block.anchored {
         return Vec::new();
     }
     let mut notes = Vec::new();
-    for (photo, view) in block.views.iter().enumerate() {
-        let (Some(pose), false) = (view.pose, view.given) else { continue };
-        let agreeing = view.sights.iter().filter(|&&s| block.sights[s].taken && block.misfit_px(s).is_some());
+    for (photo, block_photo) in block.photos.iter().enumerate() {
+        let (Some(pose), false) = (block_photo.pose, block_photo.given) else { continue };
+        let agreeing =
+            block_photo.observations.iter().filter(|&&s| block.observations[s].taken && block.misfit_px(s).is_some());
         let points: Vec<_> = agreeing
             .filter_map(|&s| {
-                let sight = &block.sights[s];
-                Some((block.marks[sight.point].known, sight.ray?, sight.sigma_px))
+                let observation = &block.observations[s];
+                Some((block.points[observation.point].known, observation.ray?, observation.sigma_px))
             })
             .collect();
         if points.len() > MOST_POINTS || points.iter().any(|(known, ..)| known.is_none()) {

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::tied;
 use crate::project::{DatumKind, Observation, Project, Role, SetAside, SetAsideBy, SetAsideReason};
 
@@ -21,7 +21,7 @@ pub(super) fn is_offered(aside: &HashSet<(&str, &str)>, observation: &Observatio
 
 /// Disables the measurements that disagree, those of photos and points without initial values, and those of points and
 /// photos that are left with too few of them; what an earlier orientation set aside and this one did not comes back.
-pub(super) fn set_aside(project: &mut Project, block: &Block) {
+pub(super) fn set_aside(project: &mut Project, block: &OrientationBlock) {
     if block.oriented() == 0 {
         return;
     }
@@ -48,7 +48,7 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
     let mut reasons: Vec<Option<SetAsideReason>> = places
         .iter()
         .enumerate()
-        .map(|(sight, &(photo, point))| {
+        .map(|(observation, &(photo, point))| {
             let posed = project.photos[photo].position.is_some() && project.photos[photo].rotation.is_some();
             if !posed {
                 Some(SetAsideReason::PhotoNotOriented)
@@ -57,7 +57,7 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
             } else if project.points[point].xyz.is_none() {
                 Some(SetAsideReason::PointNotDetermined)
             } else {
-                block.is_wrong(sight).then_some(SetAsideReason::Disagrees)
+                block.is_wrong(observation).then_some(SetAsideReason::Disagrees)
             }
         })
         .collect();
@@ -83,14 +83,14 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
         }
     }
     let mut listed = Vec::new();
-    for (sight, (row, reason)) in rows.into_iter().zip(reasons).enumerate() {
+    for (k, (row, reason)) in rows.into_iter().zip(reasons).enumerate() {
         let observation = &mut project.observations[row];
         observation.enabled = reason.is_none();
         listed.extend(reason.map(|reason| SetAside {
             photo: observation.photo.clone(),
             point: observation.point.clone(),
             reason,
-            distance_px: block.misfit_px(sight).filter(|px| px.is_finite()),
+            distance_px: block.misfit_px(k).filter(|px| px.is_finite()),
             by: SetAsideBy::Orientation,
         }));
     }

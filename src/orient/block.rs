@@ -10,11 +10,11 @@ use crate::initial::intersection::{Intersection, Ray, intersect};
 use crate::initial::pose::image_jacobian;
 use crate::initial::robust::scale;
 use crate::initial::{Degeneracy, Pose};
-use crate::project::{Camera, Interior, LensColour, Parameter, Photo, Project, Role};
+use crate::project::{Camera, Interior, Parameter, Photo, Project, Role};
 
 /// A measurement of a point in a photo.
 #[derive(Clone, Debug)]
-pub(super) struct Sight {
+pub(super) struct BlockObservation {
     /// Photo, as its place in the project.
     pub photo: usize,
     /// Point, as its place in the project.
@@ -31,31 +31,29 @@ pub(super) struct Sight {
 
 /// A photo.
 #[derive(Clone, Debug)]
-pub(super) struct View {
+pub(super) struct BlockPhoto {
     /// Camera, as its place in the project.
     pub camera: usize,
     /// Interior orientation of its own, where the photo has one.
     pub interior: Option<Interior>,
-    /// Colour it was measured in.
-    pub colour: Option<LensColour>,
     /// Exterior orientation, so far.
     pub pose: Option<Pose>,
     /// Whether the orientation was given.
     pub given: bool,
     /// Its measurements.
-    pub sights: Vec<usize>,
+    pub observations: Vec<usize>,
 }
 
-impl View {
-    /// What a camera images it by.
+impl BlockPhoto {
+    /// The photo with its interior orientation, for the camera models.
     pub fn as_photo(&self) -> Photo {
-        Photo { interior: self.interior, colour: self.colour, enabled: true, ..Photo::default() }
+        Photo { interior: self.interior, enabled: true, ..Photo::default() }
     }
 }
 
-/// An object point.
+/// An object point of the block.
 #[derive(Clone, Debug)]
-pub(super) struct Mark {
+pub(super) struct BlockPoint {
     /// Given coordinates that may be used, reduced by the origin.
     pub known: Option<Vector3<f64>>,
     /// Whether it is a control point.
@@ -65,12 +63,12 @@ pub(super) struct Mark {
     /// Coordinates, so far.
     pub xyz: Option<Vector3<f64>>,
     /// Its measurements.
-    pub sights: Vec<usize>,
+    pub observations: Vec<usize>,
 }
 
-/// The working state.
+/// The photogrammetric block under orientation: cameras, photos and points with their present values.
 #[derive(Clone, Debug)]
-pub(super) struct Block {
+pub(super) struct OrientationBlock {
     /// Cameras with working values of their parameters, in the project's order.
     pub cameras: Vec<Camera>,
     /// Whether a camera's principal distance may be changed: it is missing, or free and not observed.
@@ -78,16 +76,16 @@ pub(super) struct Block {
     /// Principal distances given for adjustable cameras, pixels: information, though not exact.
     pub given_px: Vec<Option<f64>>,
     /// Photos in the project's order.
-    pub views: Vec<View>,
+    pub photos: Vec<BlockPhoto>,
     /// Points in the project's order.
-    pub marks: Vec<Mark>,
+    pub points: Vec<BlockPoint>,
     /// Enabled measurements.
-    pub sights: Vec<Sight>,
-    /// What given coordinates are reduced by, so that large ones lose no digits.
+    pub observations: Vec<BlockObservation>,
+    /// Origin to which coordinates are reduced, so that large ones lose no digits.
     pub origin: Vector3<f64>,
     /// Whether poses and points are in the system of the given coordinates.
     pub anchored: bool,
-    /// Robust standard deviation of the residuals, pixels; none before anything was compared.
+    /// Robust standard deviation of the residuals, pixels; `None` before anything was compared.
     pub noise_px: Option<f64>,
 }
 
@@ -135,26 +133,19 @@ fn index<'a>(ids: impl Iterator<Item = &'a String>) -> BTreeMap<&'a str, usize> 
     ids.enumerate().map(|(k, id)| (id.as_str(), k)).collect()
 }
 
-impl Block {
+impl OrientationBlock {
     /// The state at the start: what is given, nothing else. The project is valid.
     pub fn new(project: &Project) -> Self {
-        let cameras = index(project.cameras.iter().map(|c| &c.id));
-        let photos = index(project.photos.iter().map(|p| &p.id));
-        let points = index(project.points.iter().map(|p| &p.id));
-        let mut views: Vec<View> = project
+        let camera_index = index(project.cameras.iter().map(|c| &c.id));
+        let photo_index = index(project.photos.iter().map(|p| &p.id));
+        let point_index = index(project.points.iter().map(|p| &p.id));
+        let mut photos: Vec<BlockPhoto> = project
             .photos
             .iter()
             .map(|photo| {
                 let pose = Pose::of_photo(photo);
-                let camera = cameras.get(photo.camera.as_str()).copied().unwrap_or_default();
-                View {
-                    camera,
-                    interior: photo.interior,
-                    colour: photo.colour,
-                    pose,
-                    given: pose.is_some(),
-                    sights: Vec::new(),
-                }
+                let camera = camera_index.get(photo.camera.as_str()).copied().unwrap_or_default();
+                BlockPhoto { camera, interior: photo.interior, pose, given: pose.is_some(), observations: Vec::new() }
             })
             .collect();
         let given: Vec<Option<Vector3<f64>>> = project
@@ -164,49 +155,49 @@ impl Block {
             .map(|p| p.xyz.filter(|xyz| p.role != Role::Check && xyz.iter().all(|x| x.is_finite())).map(Into::into))
             .collect();
         let known: Vec<Vector3<f64>> = given.iter().flatten().copied().collect();
-        let centres: Vec<Vector3<f64>> = views.iter().filter_map(|v| v.pose.map(|p| p.centre)).collect();
+        let centres: Vec<Vector3<f64>> = photos.iter().filter_map(|v| v.pose.map(|p| p.centre)).collect();
         let all = if known.is_empty() { &centres } else { &known };
         let origin = all.iter().sum::<Vector3<f64>>() / all.len().max(1) as f64;
-        for view in &mut views {
-            if let Some(pose) = &mut view.pose {
+        for block_photo in &mut photos {
+            if let Some(pose) = &mut block_photo.pose {
                 pose.centre -= origin;
             }
         }
-        let mut marks: Vec<Mark> = project
+        let mut points: Vec<BlockPoint> = project
             .points
             .iter()
             .zip(given)
-            .map(|(p, xyz)| Mark {
+            .map(|(p, xyz)| BlockPoint {
                 known: xyz.map(|x| x - origin),
                 control: p.role == Role::Control,
                 sigma: p.sigma,
                 xyz: None,
-                sights: Vec::new(),
+                observations: Vec::new(),
             })
             .collect();
         let aside = super::aside::of(project);
-        let mut sights: Vec<Sight> = Vec::new();
-        for observation in &project.observations {
-            let ids = photos.get(observation.photo.as_str()).zip(points.get(observation.point.as_str()));
-            // What an earlier orientation set aside is looked at anew.
-            let offered = super::aside::is_offered(&aside, observation);
+        let mut observations: Vec<BlockObservation> = Vec::new();
+        for row in &project.observations {
+            let ids = photo_index.get(row.photo.as_str()).zip(point_index.get(row.point.as_str()));
+            // Observations that an earlier orientation set aside are tested again.
+            let offered = super::aside::is_offered(&aside, row);
             let Some((&photo, &point)) = ids.filter(|(photo, _)| offered && project.photos[**photo].enabled) else {
                 continue;
             };
-            views[photo].sights.push(sights.len());
-            marks[point].sights.push(sights.len());
-            let [su, sv] = observation.sigma.both();
+            photos[photo].observations.push(observations.len());
+            points[point].observations.push(observations.len());
+            let [su, sv] = row.sigma.both();
             let sigma_px = (0.5 * (su * su + sv * sv)).sqrt();
-            let pixel = [observation.u, observation.v];
-            sights.push(Sight { photo, point, pixel, ray: None, sigma_px, taken: true });
+            let pixel = [row.u, row.v];
+            observations.push(BlockObservation { photo, point, pixel, ray: None, sigma_px, taken: true });
         }
         let mut block = Self {
             cameras: project.cameras.clone(),
             adjustable: project.cameras.iter().map(adjustable).collect(),
             given_px: project.cameras.iter().map(|c| principal_distance_px(c).filter(|_| adjustable(c))).collect(),
-            views,
-            marks,
-            sights,
+            photos,
+            points,
+            observations,
             origin,
             anchored: false,
             noise_px: None,
@@ -217,85 +208,86 @@ impl Block {
 
     /// Recomputes ideal coordinates after a camera changed.
     pub fn refresh_rays(&mut self) {
-        let as_taken = |view: &View| self.cameras[view.camera].of_photo(&view.as_photo());
-        let cameras: Vec<Camera> = self.views.iter().map(as_taken).collect();
-        for sight in &mut self.sights {
-            let camera = &cameras[sight.photo];
-            sight.ray = ideal_from_pixel(camera, sight.pixel);
+        let as_taken = |block_photo: &BlockPhoto| self.cameras[block_photo.camera].of_photo(&block_photo.as_photo());
+        let cameras: Vec<Camera> = self.photos.iter().map(as_taken).collect();
+        for observation in &mut self.observations {
+            let camera = &cameras[observation.photo];
+            observation.ray = ideal_from_pixel(camera, observation.pixel);
             if camera.interior.model().is_wide {
-                sight.ray = sight.ray.filter(|[x, y]| x * x + y * y < WIDE * WIDE);
+                observation.ray = observation.ray.filter(|[x, y]| x * x + y * y < WIDE * WIDE);
             }
         }
     }
 
     /// How much smaller a step in ideal coordinates is in the image of a wide lens than at its axis, along the radius: cos² θ. 1 for others.
-    fn shrinking(&self, sight: usize) -> f64 {
-        let s = &self.sights[sight];
-        let is_wide = self.cameras[self.views[s.photo].camera].interior.model().is_wide;
+    fn shrinking(&self, observation: usize) -> f64 {
+        let s = &self.observations[observation];
+        let is_wide = self.cameras[self.photos[s.photo].camera].interior.model().is_wide;
         s.ray.filter(|_| is_wide).map_or(1.0, |[x, y]| 1.0 / (1.0 + x * x + y * y))
     }
 
     /// Principal distance of a photo's camera in pixels; what turns ideal coordinates into pixels.
     pub fn pixels_per_unit(&self, photo: usize) -> f64 {
-        let camera = &self.cameras[self.views[photo].camera];
+        let camera = &self.cameras[self.photos[photo].camera];
         principal_distance_px(camera).unwrap_or_else(|| longer_side(camera))
     }
 
     /// Disagreement in pixels that is not held against a measurement: a share of the photo while nothing is known,
     /// then what the residuals say.
     pub fn tolerance_px(&self, photo: usize) -> f64 {
-        let rough = ROUGH * longer_side(&self.cameras[self.views[photo].camera]);
+        let rough = ROUGH * longer_side(&self.cameras[self.photos[photo].camera]);
         self.noise_px.map_or(rough, |noise| (5.0 * noise).clamp(0.5, 3.0 * rough))
     }
 
     /// Photos that have a pose.
     pub fn oriented(&self) -> usize {
-        self.views.iter().filter(|v| v.pose.is_some() && !v.sights.is_empty()).count()
+        self.photos.iter().filter(|v| v.pose.is_some() && !v.observations.is_empty()).count()
     }
 
     /// Measurements that agree with a pose and a point.
     pub fn agreeing(&self) -> usize {
-        (0..self.sights.len()).filter(|&s| self.sights[s].taken && self.misfit_px(s).is_some()).count()
+        (0..self.observations.len()).filter(|&s| self.observations[s].taken && self.misfit_px(s).is_some()).count()
     }
 
     /// Takes the given coordinates as the points' own and is in their system from now on.
     pub fn anchor(&mut self) {
         self.anchored = true;
-        for mark in &mut self.marks {
-            mark.xyz = mark.known.or(mark.xyz);
+        for block_point in &mut self.points {
+            block_point.xyz = block_point.known.or(block_point.xyz);
         }
     }
 
     /// Object points and ideal coordinates of a photo's measurements of points that have coordinates.
     pub fn determined(&self, photo: usize) -> (Vec<usize>, Vec<Vector3<f64>>, Vec<[f64; 2]>) {
-        let (mut sights, mut object, mut image) = (Vec::new(), Vec::new(), Vec::new());
-        for &s in &self.views[photo].sights {
-            if let (Some(xyz), Some(ray)) = (self.marks[self.sights[s].point].xyz, self.sights[s].ray) {
-                sights.push(s);
+        let (mut observations, mut object, mut image) = (Vec::new(), Vec::new(), Vec::new());
+        for &s in &self.photos[photo].observations {
+            if let (Some(xyz), Some(ray)) = (self.points[self.observations[s].point].xyz, self.observations[s].ray) {
+                observations.push(s);
                 object.push(xyz);
                 image.push(ray);
             }
         }
-        (sights, object, image)
+        (observations, object, image)
     }
 
     /// Measurements of the points that both photos show.
     pub fn common(&self, first: usize, second: usize) -> Vec<(usize, usize)> {
-        let measured = |s: &&usize| self.sights[**s].ray.is_some();
+        let measured = |s: &&usize| self.observations[**s].ray.is_some();
         let mut of_point: BTreeMap<usize, usize> = BTreeMap::new();
-        of_point.extend(self.views[second].sights.iter().filter(measured).map(|&s| (self.sights[s].point, s)));
-        let firsts = self.views[first].sights.iter().filter(measured);
-        firsts.filter_map(|&a| of_point.get(&self.sights[a].point).map(|&b| (a, b))).collect()
+        of_point
+            .extend(self.photos[second].observations.iter().filter(measured).map(|&s| (self.observations[s].point, s)));
+        let firsts = self.photos[first].observations.iter().filter(measured);
+        firsts.filter_map(|&a| of_point.get(&self.observations[a].point).map(|&b| (a, b))).collect()
     }
 
     /// Residual of a measurement in pixels; none while its photo or point is not determined, infinite behind the
     /// camera.
-    pub fn misfit_px(&self, sight: usize) -> Option<f64> {
-        let s = &self.sights[sight];
-        let (pose, xyz) = (self.views[s.photo].pose?, self.marks[s.point].xyz?);
-        let view = &self.views[s.photo];
-        if self.cameras[view.camera].interior.model().is_wide {
-            let camera = self.cameras[view.camera].of_photo(&view.as_photo());
+    pub fn misfit_px(&self, observation: usize) -> Option<f64> {
+        let s = &self.observations[observation];
+        let (pose, xyz) = (self.photos[s.photo].pose?, self.points[s.point].xyz?);
+        let block_photo = &self.photos[s.photo];
+        if self.cameras[block_photo.camera].interior.model().is_wide {
+            let camera = self.cameras[block_photo.camera].of_photo(&block_photo.as_photo());
             let seen = pixel_from_camera_point(&camera, pose.to_camera(&xyz));
             return Some(seen.map_or(f64::INFINITY, |[u, v]| (u - s.pixel[0]).hypot(v - s.pixel[1])));
         }
@@ -307,11 +299,15 @@ impl Block {
     pub fn rays(&self, point: usize) -> (Vec<usize>, Vec<Ray>) {
         let mut which = Vec::new();
         let mut rays = Vec::new();
-        for &s in &self.marks[point].sights {
-            let sight = &self.sights[s];
-            if let (Some(pose), Some(image)) = (self.views[sight.photo].pose, sight.ray) {
+        for &s in &self.points[point].observations {
+            let observation = &self.observations[s];
+            if let (Some(pose), Some(image)) = (self.photos[observation.photo].pose, observation.ray) {
                 which.push(s);
-                rays.push(Ray { pose, image, weight: (self.pixels_per_unit(sight.photo) * self.shrinking(s)).powi(2) });
+                rays.push(Ray {
+                    pose,
+                    image,
+                    weight: (self.pixels_per_unit(observation.photo) * self.shrinking(s)).powi(2),
+                });
             }
         }
         (which, rays)
@@ -323,10 +319,10 @@ impl Block {
     /// a set only where there are two, or where one pair alone of three meets.
     ///
     /// # Errors
-    /// As [`intersect`]; [`Degeneracy::NoSolution`] where no set of rays stands out.
+    /// As [`intersect`]; [`Degeneracy::NoSolution`] if no set of rays stands out.
     pub fn intersection(&self, point: usize) -> Result<(Intersection, Vec<usize>), Degeneracy> {
         let (which, rays) = self.rays(point);
-        let tolerance: Vec<f64> = which.iter().map(|&s| self.tolerance_px(self.sights[s].photo)).collect();
+        let tolerance: Vec<f64> = which.iter().map(|&s| self.tolerance_px(self.observations[s].photo)).collect();
         let chosen = |set: &[usize]| intersect(&set.iter().map(|&k| rays[k]).collect::<Vec<_>>());
         let excess = |found: &Vector3<f64>, k: usize| {
             rays[k].pose.misfit(found, rays[k].image) * rays[k].weight.sqrt() / tolerance[k]
@@ -398,16 +394,16 @@ impl Block {
 
     /// Intersects every point that has no coordinates yet; `smallest` is the least angle between rays to accept.
     pub fn intersect_new(&mut self, smallest: f64) {
-        for point in 0..self.marks.len() {
-            if self.marks[point].xyz.is_some() || self.marks[point].sights.len() < 2 {
+        for point in 0..self.points.len() {
+            if self.points[point].xyz.is_some() || self.points[point].observations.len() < 2 {
                 continue;
             }
             if let Ok((found, out)) = self.intersection(point)
                 && found.angle >= smallest
             {
-                self.marks[point].xyz = Some(found.point);
-                // One of them, a thousand pixels off, would carry the next adjustment away.
-                out.into_iter().for_each(|sight| self.sights[sight].taken = false);
+                self.points[point].xyz = Some(found.point);
+                // One of them, a thousand pixels off, would make the next adjustment fail.
+                out.into_iter().for_each(|observation| self.observations[observation].taken = false);
             }
         }
     }
@@ -416,58 +412,60 @@ impl Block {
     /// that agree within [`AGREEING`] robust standard deviations. A point that many of its rays disagree with is
     /// intersected anew from the largest set of rays that meet, since it may be the point that is wrong.
     pub fn review(&mut self) {
-        let lengths: Vec<f64> = (0..self.sights.len()).filter_map(|s| self.misfit_px(s)).collect();
+        let lengths: Vec<f64> = (0..self.observations.len()).filter_map(|s| self.misfit_px(s)).collect();
         if lengths.is_empty() {
             return;
         }
         let noise = scale(&lengths, 0) * self.shrinkage();
-        let mut sigmas: Vec<f64> = self.sights.iter().map(|s| s.sigma_px).collect();
+        let mut sigmas: Vec<f64> = self.observations.iter().map(|s| s.sigma_px).collect();
         let middle = sigmas.len() / 2;
         let a_priori = *sigmas.select_nth_unstable_by(middle, f64::total_cmp).1;
         let side = self.cameras.iter().map(longer_side).fold(0.0, f64::max);
         // Residuals of few rays a point are small by themselves: the measurements are not better than stated.
         self.noise_px = Some(noise.max(a_priori.min(0.1 * ROUGH * side)));
-        for point in 0..self.marks.len() {
-            let held = self.anchored && self.marks[point].known.is_some();
+        for point in 0..self.points.len() {
+            let held = self.anchored && self.points[point].known.is_some();
             let agreeing = |block: &Self| {
-                let sights = block.marks[point].sights.iter();
-                sights.filter(|&&s| block.misfit_px(s).is_some_and(|misfit| misfit <= block.limit_px(s))).count()
+                let observations = block.points[point].observations.iter();
+                observations.filter(|&&s| block.misfit_px(s).is_some_and(|misfit| misfit <= block.limit_px(s))).count()
             };
-            let compared = self.marks[point].sights.iter().filter(|&&s| self.misfit_px(s).is_some()).count();
+            let compared = self.points[point].observations.iter().filter(|&&s| self.misfit_px(s).is_some()).count();
             let before = agreeing(self);
             let stands = compared >= MANY && before as f64 >= MOST * compared as f64;
             if held || stands || before == compared {
                 continue;
             }
-            let old = self.marks[point].xyz;
-            self.marks[point].xyz = self.intersection(point).ok().map(|(found, _)| found.point);
+            let old = self.points[point].xyz;
+            self.points[point].xyz = self.intersection(point).ok().map(|(found, _)| found.point);
             if before >= 2 && agreeing(self) <= before {
-                self.marks[point].xyz = old;
+                self.points[point].xyz = old;
             }
         }
-        for s in 0..self.sights.len() {
+        for s in 0..self.observations.len() {
             if let Some(misfit) = self.misfit_px(s) {
-                self.sights[s].taken = misfit <= self.limit_px(s);
+                self.observations[s].taken = misfit <= self.limit_px(s);
             }
         }
     }
 
     /// Largest misfit of a measurement that agrees. Wide, because what a rough model leaves is systematic: it is the
     /// wrong names, tens of pixels off, that have to stay out.
-    pub fn limit_px(&self, sight: usize) -> f64 {
-        let camera = &self.cameras[self.views[self.sights[sight].photo].camera];
-        let own = self.sights[sight].sigma_px.min(ROUGH * longer_side(camera));
+    pub fn limit_px(&self, observation: usize) -> f64 {
+        let camera = &self.cameras[self.photos[self.observations[observation].photo].camera];
+        let own = self.observations[observation].sigma_px.min(ROUGH * longer_side(camera));
         let limit = (AGREEING * self.noise_px.unwrap_or(own).max(own)).max(SMALLEST_LIMIT_PX);
-        limit.hypot(AGREEING * self.control_px(sight))
+        limit.hypot(AGREEING * self.control_px(observation))
     }
 
     /// Standard error, in the photo, of where given coordinates of a control point place it, the larger half axis: what is measured there
     /// may be off by so much without being wrong. 0 for other points, and for coordinates that are held.
-    fn control_px(&self, sight: usize) -> f64 {
-        let s = &self.sights[sight];
-        let mark = &self.marks[s.point];
-        let sigma = mark.sigma.filter(|_| self.anchored && mark.control && mark.known.is_some());
-        let (Some(sigma), Some(pose), Some(xyz)) = (sigma, self.views[s.photo].pose, mark.xyz) else { return 0.0 };
+    fn control_px(&self, observation: usize) -> f64 {
+        let s = &self.observations[observation];
+        let block_point = &self.points[s.point];
+        let sigma = block_point.sigma.filter(|_| self.anchored && block_point.control && block_point.known.is_some());
+        let (Some(sigma), Some(pose), Some(xyz)) = (sigma, self.photos[s.photo].pose, block_point.xyz) else {
+            return 0.0;
+        };
         let sigma = Vector3::from(sigma.map(|s| s.filter(|s| *s > 0.0 && s.is_finite()).unwrap_or(0.0)));
         let to_camera = pose.to_camera(&xyz);
         if sigma == Vector3::zeros() || to_camera.z >= 0.0 {
@@ -476,19 +474,19 @@ impl Block {
         let by_point = image_jacobian(&to_camera) * pose.object_to_camera * Matrix3::from_diagonal(&sigma);
         let c = by_point * by_point.transpose();
         let (mean, half) = (0.5 * (c.m11 + c.m22), 0.5 * (c.m11 - c.m22));
-        let larger = (mean + half.hypot(c.m12)).sqrt() * self.pixels_per_unit(s.photo) * self.shrinking(sight);
+        let larger = (mean + half.hypot(c.m12)).sqrt() * self.pixels_per_unit(s.photo) * self.shrinking(observation);
         if larger.is_finite() { larger } else { 0.0 }
     }
 
     /// Whether a measurement is called wrong: it is far from its point, or its point's other rays leave no place to
     /// compare it with. Tails of real measurements, which an adjustment's own tests judge, are not.
-    pub fn is_wrong(&self, sight: usize) -> bool {
-        let noise = self.noise_px.unwrap_or(0.0).max(self.sights[sight].sigma_px);
-        let limit = (WRONG * noise).max(SMALLEST_WRONG_PX).hypot(AGREEING * self.control_px(sight));
-        !self.sights[sight].taken && self.misfit_px(sight).is_some_and(|misfit| misfit > limit)
+    pub fn is_wrong(&self, observation: usize) -> bool {
+        let noise = self.noise_px.unwrap_or(0.0).max(self.observations[observation].sigma_px);
+        let limit = (WRONG * noise).max(SMALLEST_WRONG_PX).hypot(AGREEING * self.control_px(observation));
+        !self.observations[observation].taken && self.misfit_px(observation).is_some_and(|misfit| misfit > limit)
     }
 
-    /// What residuals have to be multiplied with, since the parameters take their share: √(n/(n - u)), up to 3.
+    /// Factor for residuals that accounts for the estimated parameters: √(n/(n - u)), at most 3.
     fn shrinkage(&self) -> f64 {
         let (compared, unknowns) = self.counts();
         let spare = (2 * compared).saturating_sub(unknowns).max(1);
@@ -497,8 +495,10 @@ impl Block {
 
     /// Measurements in oriented photos of points that two of these show, or that are known.
     pub fn offered(&self) -> usize {
-        let rays = |m: &Mark| m.sights.iter().filter(|&&s| self.views[self.sights[s].photo].pose.is_some()).count();
-        let counted = self.marks.iter().map(|m| (rays(m), self.anchored && m.known.is_some()));
+        let rays = |m: &BlockPoint| {
+            m.observations.iter().filter(|&&s| self.photos[self.observations[s].photo].pose.is_some()).count()
+        };
+        let counted = self.points.iter().map(|m| (rays(m), self.anchored && m.known.is_some()));
         counted.filter(|&(rays, known)| rays > 1 || known).map(|(rays, _)| rays).sum()
     }
 
@@ -506,14 +506,18 @@ impl Block {
     /// these photos and points.
     pub fn counts(&self) -> (usize, usize) {
         let (mut compared, mut points) = (0, 0);
-        for mark in self.marks.iter().filter(|m| m.xyz.is_some()) {
-            let rays = mark.sights.iter().filter(|&&s| self.views[self.sights[s].photo].pose.is_some()).count();
+        for block_point in self.points.iter().filter(|m| m.xyz.is_some()) {
+            let rays = block_point
+                .observations
+                .iter()
+                .filter(|&&s| self.photos[self.observations[s].photo].pose.is_some())
+                .count();
             if rays >= 2 {
                 compared += rays;
-                points += usize::from(!(self.anchored && mark.control));
+                points += usize::from(!(self.anchored && block_point.control));
             }
         }
-        (compared, 6 * self.views.iter().filter(|v| v.pose.is_some() && !v.given).count() + 3 * points)
+        (compared, 6 * self.photos.iter().filter(|v| v.pose.is_some() && !v.given).count() + 3 * points)
     }
 }
 

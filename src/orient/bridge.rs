@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::neighbour::{FEWEST_COMMON, relative};
 use crate::initial::Pose;
 use crate::initial::p3p::p3p;
@@ -52,8 +52,8 @@ impl Sighting {
     }
 }
 
-/// The similarity from the model to the block that the photos of both bear out, if there is one.
-pub(super) fn similarity(block: &Block, model: &Block) -> Option<Similarity> {
+/// The similarity from the model to the block with which the common photos of both agree, if there is one.
+pub(super) fn similarity(block: &OrientationBlock, model: &OrientationBlock) -> Option<Similarity> {
     let over_pairs = over_pairs(block, model);
     let over_points = over_points(block, model)
         .into_iter()
@@ -66,12 +66,12 @@ pub(super) fn similarity(block: &Block, model: &Block) -> Option<Similarity> {
 }
 
 /// Photos that `one` has oriented and `other` has not.
-fn own(one: &Block, other: &Block) -> Vec<usize> {
-    (0..one.views.len()).filter(|&k| one.views[k].pose.is_some() && other.views[k].pose.is_none()).collect()
+fn own(one: &OrientationBlock, other: &OrientationBlock) -> Vec<usize> {
+    (0..one.photos.len()).filter(|&k| one.photos[k].pose.is_some() && other.photos[k].pose.is_none()).collect()
 }
 
 /// The best similarity over relative orientations, with its evidence.
-fn over_pairs(block: &Block, model: &Block) -> Option<(usize, Similarity)> {
+fn over_pairs(block: &OrientationBlock, model: &OrientationBlock) -> Option<(usize, Similarity)> {
     let (firsts, seconds) = (own(block, model), own(model, block));
     let mut pairs: Vec<(usize, usize, usize)> = Vec::new();
     for &a in &firsts {
@@ -81,7 +81,7 @@ fn over_pairs(block: &Block, model: &Block) -> Option<(usize, Similarity)> {
     pairs.sort_by_key(|&(count, a, b)| (std::cmp::Reverse(count), a, b));
     let mut best: Option<(usize, Similarity)> = None;
     for (_, a, b) in pairs.into_iter().take(MOST_PAIRS) {
-        let (Some(first), Some(second)) = (block.views[a].pose, model.views[b].pose) else { continue };
+        let (Some(first), Some(second)) = (block.photos[a].pose, model.photos[b].pose) else { continue };
         for found in relative(block, model, a, b) {
             let attitude = found.pose.object_to_camera * first.object_to_camera;
             let rotation = attitude.tr_mul(&second.object_to_camera);
@@ -103,13 +103,14 @@ fn over_pairs(block: &Block, model: &Block) -> Option<(usize, Similarity)> {
 }
 
 /// The best similarity over three points of the block in a photo of the model, with its evidence.
-fn over_points(block: &Block, model: &Block) -> Option<(usize, Similarity)> {
+fn over_points(block: &OrientationBlock, model: &OrientationBlock) -> Option<(usize, Similarity)> {
     let mut best: Option<(usize, Similarity)> = None;
     for b in own(model, block) {
-        let Some(second) = model.views[b].pose else { continue };
-        let seen = model.views[b].sights.iter();
-        let seen: Vec<(Vector3<f64>, [f64; 2])> =
-            seen.filter_map(|&s| Some((block.marks[model.sights[s].point].xyz?, model.sights[s].ray?))).collect();
+        let Some(second) = model.photos[b].pose else { continue };
+        let seen = model.photos[b].observations.iter();
+        let seen: Vec<(Vector3<f64>, [f64; 2])> = seen
+            .filter_map(|&s| Some((block.points[model.observations[s].point].xyz?, model.observations[s].ray?)))
+            .collect();
         for [i, j, k] in wide_triples(&seen) {
             for pose in p3p(&[seen[i].0, seen[j].0, seen[k].0], &[seen[i].1, seen[j].1, seen[k].1]) {
                 let Pose { object_to_camera, centre } = pose;
@@ -154,19 +155,19 @@ fn inverse(similarity: &Similarity) -> Similarity {
 
 /// Determined points of either model in photos of the other.
 fn sightings(
-    block: &Block,
-    model: &Block,
+    block: &OrientationBlock,
+    model: &OrientationBlock,
     (centre, direction): (Vector3<f64>, Vector3<f64>),
     (origin, rotation): (Vector3<f64>, Matrix3<f64>),
 ) -> Vec<Sighting> {
     let mut all = Vec::new();
-    for (own, other) in block.marks.iter().zip(&model.marks) {
-        for &s in &own.sights {
-            let photo = block.sights[s].photo;
+    for (own, other) in block.points.iter().zip(&model.points) {
+        for &s in &own.observations {
+            let photo = block.observations[s].photo;
             // What both models have in common agrees in each by itself.
-            match (block.views[photo].pose, model.views[photo].pose) {
+            match (block.photos[photo].pose, model.photos[photo].pose) {
                 (Some(pose), None) => {
-                    let (Some(xyz), Some(image)) = (other.xyz, block.sights[s].ray) else { continue };
+                    let (Some(xyz), Some(image)) = (other.xyz, block.observations[s].ray) else { continue };
                     let m = pose.object_to_camera;
                     all.push(Sighting {
                         at: m * (centre - pose.centre),
@@ -177,7 +178,7 @@ fn sightings(
                     });
                 }
                 (None, Some(pose)) => {
-                    let (Some(xyz), Some(image)) = (own.xyz, model.sights[s].ray) else { continue };
+                    let (Some(xyz), Some(image)) = (own.xyz, model.observations[s].ray) else { continue };
                     let m = pose.object_to_camera * rotation.transpose();
                     all.push(Sighting {
                         at: m * (xyz - centre),
@@ -222,7 +223,7 @@ fn solved(sightings: &[Sighting], base: bool) -> Option<(Vector2<f64>, usize)> {
     best.map(|(ts, set)| (ts, set.len()))
 }
 
-/// Least squares of the equations of some sightings; none where they do not determine what is asked, or not as positive numbers.
+/// Least squares of the equations of some sightings; `None` if they do not determine what is asked, or not as positive numbers.
 fn fitted(sightings: &[Sighting], some: &[usize], base: bool) -> Option<Vector2<f64>> {
     let (mut tt, mut ts, mut ss, mut t0, mut s0) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for (row, constant) in some.iter().flat_map(|&k| sightings[k].rows()) {

@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::bridge::wide_triples;
 use crate::initial::Pose;
 use crate::initial::intersection::{Ray, intersect};
 use crate::initial::p3p::p3p;
 use crate::initial::relative::{Relative, relative_orientation};
 
-/// Fewest common points with a neighbour, and neighbours that are tried.
+/// Minimum number of common points with a neighbour, and neighbours that are tried.
 pub(super) const FEWEST_COMMON: usize = 5;
 const MOST_NEIGHBOURS: usize = 4;
 /// Share of the photo's comparable measurements that has to agree.
@@ -35,7 +35,7 @@ const CHANGED: f64 = 0.01;
 
 impl Pairs {
     /// The relative orientations of `photo` to `neighbour` that three fifths of their common points agree with.
-    fn of(&mut self, block: &Block, neighbour: usize, photo: usize) -> &[Relative] {
+    fn of(&mut self, block: &OrientationBlock, neighbour: usize, photo: usize) -> &[Relative] {
         let units = block.pixels_per_unit(photo);
         let found = self.0.entry([neighbour, photo]).or_default();
         if (found.0 / units - 1.0).abs() > CHANGED {
@@ -47,11 +47,16 @@ impl Pairs {
 }
 
 /// The relative orientations of a photo of `other` to one of `block` that three fifths of their common points agree with.
-pub(super) fn relative(block: &Block, other: &Block, first: usize, second: usize) -> Vec<Relative> {
+pub(super) fn relative(
+    block: &OrientationBlock,
+    other: &OrientationBlock,
+    first: usize,
+    second: usize,
+) -> Vec<Relative> {
     let common = block.common(first, second).into_iter();
     let (a, b): (Vec<_>, Vec<_>) =
-        common.filter_map(|(a, b)| Some((block.sights[a].ray?, other.sights[b].ray?))).unzip();
-    let seed = (second * block.views.len() + first) as u64;
+        common.filter_map(|(a, b)| Some((block.observations[a].ray?, other.observations[b].ray?))).unzip();
+    let seed = (second * block.photos.len() + first) as u64;
     let tolerance = other.tolerance_px(second) / other.pixels_per_unit(second);
     let mut found = relative_orientation(&a, &b, tolerance, seed).unwrap_or_default();
     found.retain(|r| 5 * r.inliers.iter().filter(|i| **i).count() >= 3 * a.len());
@@ -59,9 +64,9 @@ pub(super) fn relative(block: &Block, other: &Block, first: usize, second: usize
 }
 
 /// Orients the photo for which there is most evidence; whether there is one.
-pub(super) fn orient_one(block: &mut Block, pairs: &mut Pairs) -> bool {
+pub(super) fn orient_one(block: &mut OrientationBlock, pairs: &mut Pairs) -> bool {
     let mut best: Option<(usize, usize, Pose)> = None;
-    for photo in (0..block.views.len()).filter(|&k| block.views[k].pose.is_none()) {
+    for photo in (0..block.photos.len()).filter(|&k| block.photos[k].pose.is_none()) {
         if let Some((votes, pose)) = best_pose(block, photo, pairs)
             && best.as_ref().is_none_or(|(most, ..)| votes > *most)
         {
@@ -69,10 +74,10 @@ pub(super) fn orient_one(block: &mut Block, pairs: &mut Pairs) -> bool {
         }
     }
     let Some((_, photo, pose)) = best else { return false };
-    block.views[photo].pose = Some(pose);
-    for s in block.views[photo].sights.clone() {
+    block.photos[photo].pose = Some(pose);
+    for s in block.photos[photo].observations.clone() {
         let limit = 3.0 * block.tolerance_px(photo);
-        block.sights[s].taken = block.misfit_px(s).is_none_or(|misfit| misfit <= limit);
+        block.observations[s].taken = block.misfit_px(s).is_none_or(|misfit| misfit <= limit);
     }
     true
 }
@@ -84,7 +89,7 @@ struct Bearing {
     direction: Vector3<f64>,
 }
 
-fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, Pose)> {
+fn best_pose(block: &OrientationBlock, photo: usize, pairs: &mut Pairs) -> Option<(usize, Pose)> {
     let judged = poses(block, photo, pairs).into_iter().map(|pose| (votes(block, photo, &pose), pose));
     let ((agreeing, compared), pose) = judged.max_by(|a, b| a.0.0.cmp(&b.0.0))?;
     let enough = agreeing >= UNKNOWNS + SPARE && agreeing as f64 >= AGREEING * compared as f64;
@@ -92,16 +97,16 @@ fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, P
 }
 
 /// The poses that neighbours and triples of determined points give a photo.
-pub(super) fn poses(block: &Block, photo: usize, pairs: &mut Pairs) -> Vec<Pose> {
-    let mut neighbours: Vec<(usize, usize)> = (0..block.views.len())
-        .filter(|&k| block.views[k].pose.is_some())
+pub(super) fn poses(block: &OrientationBlock, photo: usize, pairs: &mut Pairs) -> Vec<Pose> {
+    let mut neighbours: Vec<(usize, usize)> = (0..block.photos.len())
+        .filter(|&k| block.photos[k].pose.is_some())
         .map(|k| (block.common(k, photo).len(), k))
         .filter(|&(count, _)| count >= FEWEST_COMMON)
         .collect();
     neighbours.sort_by_key(|&(count, k)| (std::cmp::Reverse(count), k));
     let mut bearings = Vec::new();
     for &(_, neighbour) in neighbours.iter().take(MOST_NEIGHBOURS) {
-        let Some(own) = block.views[neighbour].pose else { continue };
+        let Some(own) = block.photos[neighbour].pose else { continue };
         for relative in pairs.of(block, neighbour, photo) {
             bearings.push(Bearing {
                 attitude: relative.pose.object_to_camera * own.object_to_camera,
@@ -148,19 +153,19 @@ fn base_to_line(bearing: &Bearing, other: &Bearing) -> Option<f64> {
 
 /// Equations of the photo that agree with the pose, among those that can be compared: two a determined point, one a
 /// point that one oriented photo shows.
-fn votes(block: &Block, photo: usize, pose: &Pose) -> (usize, usize) {
+fn votes(block: &OrientationBlock, photo: usize, pose: &Pose) -> (usize, usize) {
     let units = block.pixels_per_unit(photo);
     let tolerance = 3.0 * block.tolerance_px(photo);
     let (mut agreeing, mut compared) = (0, 0);
-    for &s in &block.views[photo].sights {
-        let sight = &block.sights[s];
-        let Some(image) = sight.ray else { continue };
-        if let Some(xyz) = block.marks[sight.point].xyz {
+    for &s in &block.photos[photo].observations {
+        let observation = &block.observations[s];
+        let Some(image) = observation.ray else { continue };
+        if let Some(xyz) = block.points[observation.point].xyz {
             compared += 2;
             agreeing += 2 * usize::from(pose.misfit(&xyz, image) * units <= tolerance);
             continue;
         }
-        let (_, others) = block.rays(sight.point);
+        let (_, others) = block.rays(observation.point);
         if let [other] = others[..] {
             compared += 1;
             let own = Ray { pose: *pose, image, weight: units * units };

@@ -1,9 +1,9 @@
-//! What an orientation has to say, as data: assumptions, and what could not be found and why.
+//! Notes of an orientation, as data: assumptions, and items that could not be determined, with the reason.
 
 use serde::{Deserialize, Serialize};
 
-use super::absolute::Frame;
-use super::block::{Block, principal_distance_px};
+use super::absolute::DatumSource;
+use super::block::{OrientationBlock, principal_distance_px};
 use super::tied;
 use crate::adjust::wrong_control;
 use crate::adjustment::{ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitRatio};
@@ -97,7 +97,7 @@ pub enum PointReason {
     RaysDisagree,
     /// It is a control or check point without coordinates.
     CoordinatesMissing,
-    /// As many of its rays meet in one place as in another: one name for two targets, and nothing tells which is meant.
+    /// As many of its rays meet in one place as in another: one name for two targets, and it is unknown which is meant.
     Undecided {
         /// Photos whose rays meet in the one place.
         first: Vec<String>,
@@ -106,7 +106,7 @@ pub enum PointReason {
     },
 }
 
-/// Something to say about an orientation.
+/// A note on an orientation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "note", rename_all = "snake_case")]
 pub enum Note {
@@ -125,7 +125,7 @@ pub enum Note {
         camera: String,
         /// The value, in the camera's units.
         value: f64,
-        /// Its standard error; null where the network does not determine it.
+        /// Its standard error; null if the network does not determine it.
         sigma: Option<f64>,
     },
     /// A principal distance is far from the one that was given.
@@ -199,27 +199,27 @@ pub enum Note {
         /// The points.
         points: [String; 2],
     },
-    /// Points nearer to each other than their standard errors tell apart: one target under two names, most often.
+    /// Points nearer to each other than their standard errors can separate: one target under two names, most often.
     DoublePoints {
         /// The pairs.
         pairs: Vec<(String, String)>,
     },
     /// Given coordinates are a mirror image of what the photos show.
     MirroredControl(MirroredControl),
-    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    /// Given points lie in a plane, and nothing shows whether their axes are mirrored.
     UndecidedAxes(UndecidedAxes),
     /// Something seems to be given in another unit than the rest.
     UnitRatio(UnitRatio),
     /// Photos were taken from one place.
     OneStation(OneStation),
-    /// A camera cannot be what it is said to be, and is not used as given.
+    /// A given camera is implausible and is not used as given.
     ImplausibleCamera(ImplausibleCamera),
     /// Nothing gives a scale.
     NoScale,
 }
 
 impl Note {
-    /// Whether it says that something given contradicts the photos, like [`Advice::contradicts`](crate::adjustment::Advice::contradicts).
+    /// Whether it means that a given value contradicts the photos, like [`Advice::contradicts`](crate::adjustment::Advice::contradicts).
     pub fn contradicts(&self) -> bool {
         match self {
             Self::ControlMisfit { .. }
@@ -234,25 +234,25 @@ impl Note {
     }
 }
 
-pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec<Note> {
+pub(super) fn of_frame(block: &OrientationBlock, frame: Option<DatumSource>, scaled: bool) -> Vec<Note> {
     let source = match frame {
         None => return Vec::new(),
         Some(_) if block.oriented() == 0 => return Vec::new(),
-        Some(Frame::Known) => SystemSource::KnownPoints,
-        Some(Frame::GivenPhotos) => SystemSource::GivenPhotos,
-        Some(Frame::Own) => SystemSource::Own,
+        Some(DatumSource::Known) => SystemSource::KnownPoints,
+        Some(DatumSource::GivenPhotos) => SystemSource::GivenPhotos,
+        Some(DatumSource::Own) => SystemSource::Own,
     };
     vec![Note::System { source, scale: if scaled { ScaleSource::Given } else { ScaleSource::Arbitrary } }]
 }
 
 /// Relative standard error beyond which a principal distance is called badly determined, and change of a given one
-/// that is worth saying.
+/// that is worth a note.
 const WEAK: f64 = 0.025;
 const CHANGED: f64 = 0.08;
 
 pub(super) fn of_cameras(
     project: &Project,
-    block: &Block,
+    block: &OrientationBlock,
     sources: &[Option<DistanceSource>],
     sigmas_px: &[Option<f64>],
 ) -> Vec<Note> {
@@ -277,27 +277,27 @@ pub(super) fn of_cameras(
 }
 
 /// Photos of the models that could not be joined, each in the largest model that holds it.
-pub(super) fn group_of(block: &Block, apart: &[Block], photo: usize) -> Option<usize> {
-    let outside = block.views[photo].pose.is_none();
-    apart.iter().position(|model| outside && model.views[photo].pose.is_some()).map(|k| k + 2)
+pub(super) fn group_of(block: &OrientationBlock, apart: &[OrientationBlock], photo: usize) -> Option<usize> {
+    let outside = block.photos[photo].pose.is_none();
+    apart.iter().position(|model| outside && model.photos[photo].pose.is_some()).map(|k| k + 2)
 }
 
-pub(super) fn of_groups(project: &Project, block: &Block, apart: &[Block]) -> Vec<Note> {
+pub(super) fn of_groups(project: &Project, block: &OrientationBlock, apart: &[OrientationBlock]) -> Vec<Note> {
     let id = |k: usize| project.photos[k].id.clone();
-    let all = 0..block.views.len();
-    let main: Vec<String> = all.clone().filter(|&k| block.views[k].pose.is_some()).map(id).collect();
+    let all = 0..block.photos.len();
+    let main: Vec<String> = all.clone().filter(|&k| block.photos[k].pose.is_some()).map(id).collect();
     let others = (0..apart.len())
         .map(|n| all.clone().filter(|&k| group_of(block, apart, k) == Some(n + 2)).map(id).collect::<Vec<_>>());
     let groups: Vec<Vec<String>> = std::iter::once(main).chain(others).filter(|g| !g.is_empty()).collect();
     if groups.len() > 1 { vec![Note::Groups { groups }] } else { Vec::new() }
 }
 
-pub(super) fn of_photos(project: &Project, block: &Block, apart: &[Block]) -> Vec<Note> {
-    let missing = project.photos.iter().enumerate().filter(|(k, p)| p.enabled && block.views[*k].pose.is_none());
+pub(super) fn of_photos(project: &Project, block: &OrientationBlock, apart: &[OrientationBlock]) -> Vec<Note> {
+    let missing = project.photos.iter().enumerate().filter(|(k, p)| p.enabled && block.photos[*k].pose.is_none());
     missing
         .map(|(k, photo)| {
             let determined = block.determined(k).0.len();
-            let reason = if block.views[k].sights.is_empty() {
+            let reason = if block.photos[k].observations.is_empty() {
                 PhotoReason::NoPoints
             } else if let Some(group) = group_of(block, apart, k) {
                 PhotoReason::OtherGroup { group }
@@ -311,25 +311,29 @@ pub(super) fn of_photos(project: &Project, block: &Block, apart: &[Block]) -> Ve
         .collect()
 }
 
-pub(super) fn of_points(project: &Project, block: &Block) -> Vec<Note> {
-    let photo_of = |sight: usize| project.photos[block.sights[sight].photo].id.clone();
+pub(super) fn of_points(project: &Project, block: &OrientationBlock) -> Vec<Note> {
+    let photo_of = |observation: usize| project.photos[block.observations[observation].photo].id.clone();
     let mut notes = Vec::new();
     for (k, point) in project.points.iter().enumerate() {
-        let mark = &block.marks[k];
+        let block_point = &block.points[k];
         let reason = if point.role != Role::Tie {
             if point.xyz.is_some() {
                 continue;
             }
             PointReason::CoordinatesMissing
-        } else if mark.xyz.is_some() || point.xyz.is_some() {
+        } else if block_point.xyz.is_some() || point.xyz.is_some() {
             continue;
         } else {
-            let oriented: Vec<usize> =
-                mark.sights.iter().copied().filter(|&s| block.views[block.sights[s].photo].pose.is_some()).collect();
+            let oriented: Vec<usize> = block_point
+                .observations
+                .iter()
+                .copied()
+                .filter(|&s| block.photos[block.observations[s].photo].pose.is_some())
+                .collect();
             let sides = tied::sides(block, k);
-            match (mark.sights.len(), oriented.len()) {
+            match (block_point.observations.len(), oriented.len()) {
                 (0, _) => PointReason::NotMeasured,
-                (1, _) => PointReason::SeenOnce { photo: photo_of(mark.sights[0]) },
+                (1, _) => PointReason::SeenOnce { photo: photo_of(block_point.observations[0]) },
                 (_, photos @ (0 | 1)) => PointReason::TooFewOrientedPhotos { photos },
                 _ if sides.is_some() => {
                     let named = |side: Vec<usize>| -> Vec<String> { side.into_iter().map(photo_of).collect() };
@@ -351,15 +355,15 @@ pub(super) fn of_points(project: &Project, block: &Block) -> Vec<Note> {
     notes
 }
 
-pub(super) fn of_observations(project: &Project, block: &Block) -> Vec<Note> {
-    let standing_out = (0..block.sights.len()).filter(|&s| block.is_wrong(s));
+pub(super) fn of_observations(project: &Project, block: &OrientationBlock) -> Vec<Note> {
+    let standing_out = (0..block.observations.len()).filter(|&s| block.is_wrong(s));
     standing_out
         .filter_map(|s| {
             let distance_px = block.misfit_px(s)?;
-            let sight = &block.sights[s];
+            let observation = &block.observations[s];
             Some(Note::MeasurementDisagrees {
-                photo: project.photos[sight.photo].id.clone(),
-                point: project.points[sight.point].id.clone(),
+                photo: project.photos[observation.photo].id.clone(),
+                point: project.points[observation.point].id.clone(),
                 distance_px: distance_px.is_finite().then_some(distance_px),
             })
         })
@@ -367,8 +371,8 @@ pub(super) fn of_observations(project: &Project, block: &Block) -> Vec<Note> {
 }
 
 /// Control points that are not where the photos see them. The project is the oriented one.
-pub(super) fn of_control(oriented: &Project, frame: Option<Frame>) -> Vec<Note> {
-    let controlled = oriented.datum.kind == DatumKind::Control || frame == Some(Frame::Known);
+pub(super) fn of_control(oriented: &Project, frame: Option<DatumSource>) -> Vec<Note> {
+    let controlled = oriented.datum.kind == DatumKind::Control || frame == Some(DatumSource::Known);
     if !controlled {
         return Vec::new();
     }

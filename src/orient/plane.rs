@@ -9,10 +9,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::growth::{FEWEST, resect};
 use super::refine::{Freedom, refine};
-use super::seed::{Outcome, without_poses};
+use super::seed::{NetworkQuality, without_poses};
 use crate::initial::Pose;
 use crate::initial::robust::quantile;
 
@@ -24,7 +24,7 @@ const RINGS: usize = 4;
 /// Photos by which a normal is judged, and normals that are followed to the end.
 const JUDGED: usize = 8;
 const MOST_FOLLOWED: usize = 4;
-/// Noise, as a multiple of what a network is believed at, of what the adjustment in space has made of a true start: seven of them
+/// Noise, as a multiple of the limit for an accepted network, of what the adjustment in space has made of a true start: seven of them
 /// came to at most 6, false ones to 30 and more.
 const ADJUSTED: f64 = 10.0;
 /// Rounds in which points and poses take turns.
@@ -32,14 +32,14 @@ const ROUNDS: usize = 3;
 
 /// A plane in front of a photo: all points X with n·(X - F) = 0, where F lies one unit before the projection centre.
 #[derive(Clone, Copy)]
-struct Plane {
+struct ScenePlane {
     normal: Vector3<f64>,
 }
 
-impl Plane {
+impl ScenePlane {
     const FOOT: Vector3<f64> = Vector3::new(0.0, 0.0, -1.0);
 
-    /// Where a ray meets it; none where it does so behind the camera or far away.
+    /// Where a ray meets it; `None` if it does so behind the camera or far away.
     fn meets(&self, pose: &Pose, image: [f64; 2]) -> Option<Vector3<f64>> {
         let direction = pose.object_to_camera.tr_mul(&Vector3::new(image[0], image[1], -1.0));
         let along = self.normal.dot(&(Self::FOOT - pose.centre)) / self.normal.dot(&direction);
@@ -48,20 +48,20 @@ impl Plane {
 }
 
 /// Models of a block's unused photos that suppose a plane, best first.
-pub(super) fn cores(block: &Block, used: &[bool], fine_px: f64) -> Vec<Block> {
-    let mut judged: Vec<(f64, Block, Plane)> = Vec::new();
+pub(super) fn cores(block: &OrientationBlock, used: &[bool], fine_px: f64) -> Vec<OrientationBlock> {
+    let mut judged: Vec<(f64, OrientationBlock, ScenePlane)> = Vec::new();
     for base in bases(block, used) {
-        for plane in normals().map(|normal| Plane { normal }) {
+        for plane in normals().map(|normal| ScenePlane { normal }) {
             let mut model = without_poses(block);
-            model.views[base].pose = Some(Pose::identity());
+            model.photos[base].pose = Some(Pose::identity());
             spread(&mut model, &plane, JUDGED);
             if model.oriented() > 2 {
-                judged.push((told(&model, &plane), model, plane));
+                judged.push((evidence(&model, &plane), model, plane));
             }
         }
     }
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut cores: Vec<(f64, Block)> = Vec::new();
+    let mut cores: Vec<(f64, OrientationBlock)> = Vec::new();
     for (_, mut model, plane) in judged.into_iter().take(MOST_FOLLOWED) {
         spread(&mut model, &plane, usize::MAX);
         level(&mut model, &plane);
@@ -69,7 +69,7 @@ pub(super) fn cores(block: &Block, used: &[bool], fine_px: f64) -> Vec<Block> {
         model.review();
         refine(&mut model, Freedom::Distance);
         if model.noise_px.is_some_and(|noise| noise <= ADJUSTED * fine_px) {
-            cores.push((Outcome::of(&model).told, model));
+            cores.push((NetworkQuality::of(&model).evidence, model));
         }
     }
     cores.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -77,8 +77,8 @@ pub(super) fn cores(block: &Block, used: &[bool], fine_px: f64) -> Vec<Block> {
 }
 
 /// Unused photos by the points they share with others beyond three each.
-fn bases(block: &Block, used: &[bool]) -> Vec<usize> {
-    let free: Vec<usize> = (0..block.views.len()).filter(|&k| !used[k]).collect();
+fn bases(block: &OrientationBlock, used: &[bool]) -> Vec<usize> {
+    let free: Vec<usize> = (0..block.photos.len()).filter(|&k| !used[k]).collect();
     let shared = |a: usize| -> usize {
         free.iter().filter(|&&b| b != a).map(|&b| block.common(a, b).len().saturating_sub(FEWEST - 1)).sum()
     };
@@ -99,11 +99,11 @@ fn normals() -> impl Iterator<Item = Vector3<f64>> {
 }
 
 /// Lays the points of oriented photos on the plane and orients photos by them, in turns, until `most` are oriented.
-fn spread(model: &mut Block, plane: &Plane, most: usize) {
-    let mut tried = vec![0; model.views.len()];
+fn spread(model: &mut OrientationBlock, plane: &ScenePlane, most: usize) {
+    let mut tried = vec![0; model.photos.len()];
     lay(model, plane);
     while model.oriented() < most {
-        let left = (0..tried.len()).filter(|&k| model.views[k].pose.is_none());
+        let left = (0..tried.len()).filter(|&k| model.photos[k].pose.is_none());
         let counted = left.map(|k| (model.determined(k).0.len(), k)).filter(|&(n, k)| n > FEWEST && n > tried[k]);
         let Some((count, photo)) = counted.max_by_key(|&(n, k)| (n, std::cmp::Reverse(k))) else { break };
         if resect(model, photo) {
@@ -115,26 +115,26 @@ fn spread(model: &mut Block, plane: &Plane, most: usize) {
 }
 
 /// Gives every point the middle of the places where its rays meet the plane.
-fn lay(model: &mut Block, plane: &Plane) {
-    for point in 0..model.marks.len() {
+fn lay(model: &mut OrientationBlock, plane: &ScenePlane) {
+    for point in 0..model.points.len() {
         let (_, rays) = model.rays(point);
         let places: Vec<Vector3<f64>> = rays.iter().filter_map(|ray| plane.meets(&ray.pose, ray.image)).collect();
         let middle = |k: usize| quantile(&places.iter().map(|p| p[k]).collect::<Vec<_>>(), 0.5);
-        model.marks[point].xyz = (!places.is_empty()).then(|| Vector3::new(middle(0), middle(1), middle(2)));
+        model.points[point].xyz = (!places.is_empty()).then(|| Vector3::new(middle(0), middle(1), middle(2)));
     }
 }
 
 /// Points and poses take turns in fitting each other.
-fn level(model: &mut Block, plane: &Plane) {
+fn level(model: &mut OrientationBlock, plane: &ScenePlane) {
     for _ in 0..ROUNDS {
-        for photo in 0..model.views.len() {
-            let Some(pose) = model.views[photo].pose else { continue };
+        for photo in 0..model.photos.len() {
+            let Some(pose) = model.photos[photo].pose else { continue };
             let (_, object, image) = model.determined(photo);
             let limit = 3.0 * model.tolerance_px(photo) / model.pixels_per_unit(photo);
             let near = object.iter().zip(&image).filter(|(xyz, m)| pose.misfit(xyz, **m) <= limit);
             let (object, image): (Vec<_>, Vec<_>) = near.map(|(xyz, m)| (*xyz, *m)).unzip();
             if object.len() > FEWEST {
-                model.views[photo].pose = pose.refined(&object, &image).or(Some(pose));
+                model.photos[photo].pose = pose.refined(&object, &image).or(Some(pose));
             }
         }
         lay(model, plane);
@@ -142,19 +142,19 @@ fn level(model: &mut Block, plane: &Plane) {
 }
 
 /// Points of one ray lie on it and tell nothing.
-fn single_rays_out(model: &mut Block) {
-    for point in 0..model.marks.len() {
+fn single_rays_out(model: &mut OrientationBlock) {
+    for point in 0..model.points.len() {
         if model.rays(point).0.len() < 2 {
-            model.marks[point].xyz = None;
+            model.points[point].xyz = None;
         }
     }
 }
 
-/// What the agreement of a plane model tells.
-fn told(model: &Block, plane: &Plane) -> f64 {
+/// Measure of the agreement of a plane model.
+fn evidence(model: &OrientationBlock, plane: &ScenePlane) -> f64 {
     let mut model = model.clone();
     level(&mut model, plane);
     single_rays_out(&mut model);
     model.review();
-    Outcome::of(&model).told
+    NetworkQuality::of(&model).evidence
 }

@@ -1,12 +1,11 @@
-//! The principal distance to start with: given, from known points, or assumed.
+//! Initial value of the principal distance: given, from known points, or assumed.
 //!
-//! Known points decide it photo by photo (direct linear transformation) or over all photos of a plane (homographies);
-//! either way the value kept is the one whose resections leave the smallest residuals, looked for over the range that
-//! lenses have.
+//! Known points determine it photo by photo (direct linear transformation) or from all photos of a plane (homographies). The result is
+//! the value with the smallest residuals of the space resections, searched over the range of usual lenses.
 
 use nalgebra::Vector3;
 
-use super::block::{Block, longer_side, set_principal_distance_px};
+use super::block::{OrientationBlock, longer_side, set_principal_distance_px};
 use crate::camera::ideal_from_pixel;
 use crate::initial::dlt::dlt;
 use crate::initial::homography::{of_plane, principal_distance};
@@ -18,19 +17,20 @@ use crate::project::Camera;
 pub(super) const ASSUMED: f64 = 1.2;
 /// Shortest and longest principal distance looked for, over the longer side of the sensor.
 const RANGE: [f64; 2] = [0.35, 12.0];
-/// Photos and points a photo that take part in the search; more add time and no safety.
+/// Maximum number of photos used in the search; more cost time without improving the result.
 const MOST_PHOTOS: usize = 12;
+/// Maximum number of points per photo used in the search.
 const MOST_POINTS: usize = 16;
 
-/// Known points as one photo sees them.
-struct Seen {
+/// Known points measured in one photo.
+struct KnownPoints {
     object: Vec<Vector3<f64>>,
     pixels: Vec<[f64; 2]>,
 }
 
-/// The principal distance in pixels that known points give a camera; none where no photo sees four of them, or where
-/// they do not determine it.
-pub(super) fn from_known(block: &Block, camera: usize) -> Option<f64> {
+/// The principal distance of a camera in pixels from known points; `None` if no photo shows four of them, or if they do not determine
+/// it.
+pub(super) fn from_known(block: &OrientationBlock, camera: usize) -> Option<f64> {
     let seen = seen(block, camera);
     if seen.is_empty() {
         return None;
@@ -54,22 +54,22 @@ pub(super) fn from_known(block: &Block, camera: usize) -> Option<f64> {
     }
     let (least, start) = best?;
     let found = golden_section(&cost, start / 1.3, start * 1.3);
-    // Flat valleys (photos parallel to a plane) say nothing; so does the end of the range.
+    // A flat minimum (photos parallel to a plane) does not determine it; a minimum at an end of the range is not one.
     let decided = largest > 1.5 * least.min(cost(found)) + 1e-9;
     let inside = found > 1.02 * side * RANGE[0] && found < 0.98 * side * RANGE[1];
     (decided && inside).then_some(found)
 }
 
-fn seen(block: &Block, camera: usize) -> Vec<Seen> {
-    let mut all: Vec<Seen> = Vec::new();
-    for view in block.views.iter().filter(|v| v.camera == camera) {
-        let known = view.sights.iter().filter_map(|&s| {
-            let sight = &block.sights[s];
-            block.marks[sight.point].known.map(|xyz| (xyz, sight.pixel))
+fn seen(block: &OrientationBlock, camera: usize) -> Vec<KnownPoints> {
+    let mut all: Vec<KnownPoints> = Vec::new();
+    for block_photo in block.photos.iter().filter(|v| v.camera == camera) {
+        let known = block_photo.observations.iter().filter_map(|&s| {
+            let observation = &block.observations[s];
+            block.points[observation.point].known.map(|xyz| (xyz, observation.pixel))
         });
         let (object, pixels): (Vec<_>, Vec<_>) = known.unzip();
         if object.len() >= 4 {
-            all.push(Seen { object, pixels });
+            all.push(KnownPoints { object, pixels });
         }
     }
     let keep = |count: usize, most: usize| -> Vec<usize> {
@@ -79,7 +79,7 @@ fn seen(block: &Block, camera: usize) -> Vec<Seen> {
         .into_iter()
         .map(|k| {
             let some = keep(all[k].object.len(), MOST_POINTS);
-            Seen {
+            KnownPoints {
                 object: some.iter().map(|&i| all[k].object[i]).collect(),
                 pixels: some.iter().map(|&i| all[k].pixels[i]).collect(),
             }
@@ -88,7 +88,7 @@ fn seen(block: &Block, camera: usize) -> Vec<Seen> {
 }
 
 /// Median over the photos of the resection's root mean square residual, pixels.
-fn misfit(camera: &Camera, seen: &[Seen], px: f64) -> f64 {
+fn misfit(camera: &Camera, seen: &[KnownPoints], px: f64) -> f64 {
     let mut camera = camera.clone();
     set_principal_distance_px(&mut camera, px);
     let each: Vec<f64> = seen
@@ -102,12 +102,12 @@ fn misfit(camera: &Camera, seen: &[Seen], px: f64) -> f64 {
     quantile(&each, 0.5)
 }
 
-/// What direct linear transformations and plane homographies say, pixels.
-fn closed_forms(camera: &Camera, seen: &[Seen]) -> Vec<f64> {
+/// Principal distances from direct linear transformations and plane homographies, pixels.
+fn closed_forms(camera: &Camera, seen: &[KnownPoints]) -> Vec<f64> {
     let [px, py] = camera.pitch();
     let model = camera.interior.model();
     if model.is_wide {
-        // They hold for perspective images.
+        // Both assume perspective images.
         return Vec::new();
     }
     let centre = model.centre.map(|p| camera.interior.get(p).unwrap_or_default());

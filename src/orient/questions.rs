@@ -1,27 +1,27 @@
-//! What an orientation asks of the input: [`crate::plausibility`] with what the photos say by themselves.
+//! Questions about the input: results of [`crate::plausibility`] and of an orientation from the photos alone.
 
-use super::block::{Block, principal_distance_px};
+use super::block::{OrientationBlock, principal_distance_px};
 use super::note::Note;
 use super::{Attempt, fine_px, give_principal_distances};
 use crate::adjustment::ImplausibleCamera;
 use crate::initial::Pose;
 use crate::initial::robust::quantile;
-use crate::plausibility::axes::{self, Handedness, Pair, Question};
+use crate::plausibility::axes::{self, Handedness, PointPair, Question};
 use crate::plausibility::framing::{self, Framing};
 use crate::plausibility::units;
 use crate::project::{Datum, Interior, Parameter, Project, Role};
 
-/// Given points that tell a mirror image: three always lie in a plane.
+/// Minimum number of given points that reveal a mirror image: three always lie in a plane.
 const FEWEST: usize = 4;
-/// Photos that are looked at for another size; more that do not fit have another reason.
+/// Photos that are examined for another size; more that do not fit have another reason.
 const MOST: usize = 8;
-/// Share of a photo's measurements that may disagree before it is looked at.
+/// Share of a photo's measurements that may disagree before it is examined.
 const DISAGREEING: f64 = 0.4;
 
 /// Whether given coordinates or orientations hold photos that show no depth by themselves.
-pub(super) fn is_known(block: &Block) -> bool {
-    block.marks.iter().filter(|m| m.known.is_some() && !m.sights.is_empty()).count() >= 3
-        || block.views.iter().any(|view| view.given)
+pub(super) fn is_known(block: &OrientationBlock) -> bool {
+    block.points.iter().filter(|m| m.known.is_some() && !m.observations.is_empty()).count() >= 3
+        || block.photos.iter().any(|block_photo| block_photo.given)
 }
 
 /// Lengths in another unit: of what is given, with the oriented document's coordinates.
@@ -41,16 +41,16 @@ pub(super) fn units(given: &Project, oriented: &Project) -> Vec<Note> {
 /// Where the oriented network, which took them for right, agrees with them and not with their mirror image, and the measurements of all of
 /// them agree with it, nothing is asked; where they lie in a plane its form is the photos' own. Else the photos are oriented once more
 /// without anything given in the object's system.
-pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
-    let measured = project.points.iter().zip(&block.marks);
-    let given = measured.filter(|(p, m)| p.role != Role::Tie && p.xyz.is_some() && m.sights.len() >= 2).count();
+pub(super) fn axes(project: &Project, block: &OrientationBlock) -> Option<Note> {
+    let measured = project.points.iter().zip(&block.points);
+    let given = measured.filter(|(p, m)| p.role != Role::Tie && p.xyz.is_some() && m.observations.len() >= 2).count();
     let own = pairs(project, block);
     let question = match axes::handedness(&own) {
         Handedness::AsGiven if !is_contradicted(project, block) => None,
         Handedness::Both { .. } => axes::question(&own, &poses(block)),
         _ if given >= FEWEST => {
             let bare = without_given(project);
-            let mut start = Block::new(&bare);
+            let mut start = OrientationBlock::new(&bare);
             let sources = give_principal_distances(&mut start);
             let block = Attempt::new(&bare, &start, &start.adjustable, &sources, true).block;
             axes::question(&pairs(project, &block), &poses(&block))
@@ -65,18 +65,24 @@ pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
 
 /// Whether the network fits far worse than the measurements are, or a given point is where fewer than half of its measurements are. Mirrored
 /// coordinates bend the whole network, or hold it in the mirror image with some measurements set aside.
-fn is_contradicted(project: &Project, block: &Block) -> bool {
+fn is_contradicted(project: &Project, block: &OrientationBlock) -> bool {
     if block.noise_px.is_some_and(|noise| noise > fine_px(project)) {
         return true;
     }
-    project.points.iter().zip(&block.marks).filter(|(p, _)| p.role != Role::Tie && p.xyz.is_some()).any(|(_, mark)| {
-        let agreeing = mark.sights.iter().filter(|&&s| block.sights[s].taken && block.misfit_px(s).is_some()).count();
-        mark.sights.len() >= 2 && 2 * agreeing < mark.sights.len()
-    })
+    project.points.iter().zip(&block.points).filter(|(p, _)| p.role != Role::Tie && p.xyz.is_some()).any(
+        |(_, block_point)| {
+            let agreeing = block_point
+                .observations
+                .iter()
+                .filter(|&&s| block.observations[s].taken && block.misfit_px(s).is_some())
+                .count();
+            block_point.observations.len() >= 2 && 2 * agreeing < block_point.observations.len()
+        },
+    )
 }
 
-fn poses(block: &Block) -> Vec<Pose> {
-    block.views.iter().filter_map(|view| view.pose).collect()
+fn poses(block: &OrientationBlock) -> Vec<Pose> {
+    block.photos.iter().filter_map(|block_photo| block_photo.pose).collect()
 }
 
 /// The project with tie points alone, in no system.
@@ -92,7 +98,7 @@ fn without_given(project: &Project) -> Project {
 }
 
 /// Points and observed projection centres with given coordinates, where their rays meet and where their photos stand.
-fn pairs(project: &Project, block: &Block) -> Vec<Pair> {
+fn pairs(project: &Project, block: &OrientationBlock) -> Vec<PointPair> {
     let noise = block.noise_px.unwrap_or(1.0);
     let rms = |sigma: Option<[Option<f64>; 3]>| {
         sigma.map_or(0.0, |s| (s.iter().flatten().map(|s| s * s).sum::<f64>() / 3.0).sqrt())
@@ -102,16 +108,16 @@ fn pairs(project: &Project, block: &Block) -> Vec<Pair> {
         let (Some(given), Ok((found, _))) = (point.xyz, block.intersection(k)) else { continue };
         // The photos' own uncertainty is about as much as that of the rays.
         let free_sigma = 2.0 * noise * found.cofactors.diagonal().max().max(0.0).sqrt();
-        pairs.push(Pair { free: found.point, given: given.into(), free_sigma, given_sigma: rms(point.sigma) });
+        pairs.push(PointPair { free: found.point, given: given.into(), free_sigma, given_sigma: rms(point.sigma) });
     }
-    for (photo, view) in project.photos.iter().zip(&block.views).filter(|(_, view)| !view.given) {
+    for (photo, block_photo) in project.photos.iter().zip(&block.photos).filter(|(_, block_photo)| !block_photo.given) {
         let observed = photo.sigma_position.filter(|sigma| sigma.iter().all(Option::is_some));
-        if let (Some(pose), Some(given), Some(_)) = (view.pose, photo.position, observed) {
-            let points = view.sights.iter().filter_map(|&s| block.marks[block.sights[s].point].xyz);
+        if let (Some(pose), Some(given), Some(_)) = (block_photo.pose, photo.position, observed) {
+            let points = block_photo.observations.iter().filter_map(|&s| block.points[block.observations[s].point].xyz);
             let depths: Vec<f64> = points.map(|p| (p - pose.centre).norm()).collect();
-            let px = principal_distance_px(&block.cameras[view.camera]).unwrap_or(1.0);
+            let px = principal_distance_px(&block.cameras[block_photo.camera]).unwrap_or(1.0);
             let free_sigma = 2.0 * noise * quantile(&depths, 0.5) / px;
-            pairs.push(Pair {
+            pairs.push(PointPair {
                 free: pose.centre,
                 given: given.into(),
                 free_sigma,
@@ -124,34 +130,35 @@ fn pairs(project: &Project, block: &Block) -> Vec<Pair> {
 
 /// Photos that were resized, cropped or taken at another principal distance: their poses are taken back, since with the camera's lens they
 /// are wrong, and so are points that would be left with one ray.
-pub(super) fn misframed(project: &Project, block: &mut Block) -> Vec<ImplausibleCamera> {
+pub(super) fn misframed(project: &Project, block: &mut OrientationBlock) -> Vec<ImplausibleCamera> {
     let mut found: Vec<(usize, Framing)> = Vec::new();
     let mut looked = 0;
-    for photo in 0..block.views.len() {
-        let view = &block.views[photo];
-        if view.given || looked == MOST {
+    for photo in 0..block.photos.len() {
+        let block_photo = &block.photos[photo];
+        if block_photo.given || looked == MOST {
             continue;
         }
-        let sights: Vec<usize> = view.sights.iter().copied().filter(|&s| is_determined_without(block, s)).collect();
-        let agrees = |s: &usize| block.sights[*s].taken && block.misfit_px(*s).is_some();
-        let agreeing = sights.iter().filter(|s| agrees(s)).count();
-        if sights.is_empty() || agreeing as f64 > (1.0 - DISAGREEING) * sights.len() as f64 {
+        let observations: Vec<usize> =
+            block_photo.observations.iter().copied().filter(|&s| is_determined_without(block, s)).collect();
+        let agrees = |s: &usize| block.observations[*s].taken && block.misfit_px(*s).is_some();
+        let agreeing = observations.iter().filter(|s| agrees(s)).count();
+        if observations.is_empty() || agreeing as f64 > (1.0 - DISAGREEING) * observations.len() as f64 {
             continue;
         }
         looked += 1;
-        let object = sights.iter().filter_map(|&s| block.marks[block.sights[s].point].xyz).collect();
-        let pixels = sights.iter().map(|&s| block.sights[s].pixel).collect();
-        let camera = block.cameras[view.camera].of_photo(&view.as_photo());
-        let limit_px = sights.iter().map(|&s| block.limit_px(s)).fold(1.0, f64::max);
-        let seen = framing::Seen { object, pixels, camera: &camera, limit_px };
+        let object = observations.iter().filter_map(|&s| block.points[block.observations[s].point].xyz).collect();
+        let pixels = observations.iter().map(|&s| block.observations[s].pixel).collect();
+        let camera = block.cameras[block_photo.camera].of_photo(&block_photo.as_photo());
+        let limit_px = observations.iter().map(|&s| block.limit_px(s)).fold(1.0, f64::max);
+        let seen = framing::PhotoPoints { object, pixels, camera: &camera, limit_px };
         found.extend(framing::misframed(&seen).map(|framing| (photo, framing)));
     }
     for (photo, _) in &found {
-        block.views[*photo].pose = None;
-        for s in block.views[*photo].sights.clone() {
-            let point = block.sights[s].point;
-            if block.rays(point).0.len() < 2 && !(block.anchored && block.marks[point].known.is_some()) {
-                block.marks[point].xyz = None;
+        block.photos[*photo].pose = None;
+        for s in block.photos[*photo].observations.clone() {
+            let point = block.observations[s].point;
+            if block.rays(point).0.len() < 2 && !(block.anchored && block.points[point].known.is_some()) {
+                block.points[point].xyz = None;
             }
         }
     }
@@ -159,20 +166,19 @@ pub(super) fn misframed(project: &Project, block: &mut Block) -> Vec<Implausible
         block.review();
     }
     let doubt = |(photo, framing): (usize, Framing)| {
-        let camera = &project.cameras[block.views[photo].camera];
+        let camera = &project.cameras[block.photos[photo].camera];
         ImplausibleCamera::of_framing(camera, &project.photos[photo].id, framing)
     };
     found.into_iter().map(doubt).collect()
 }
 
 /// Whether other photos determine the point of a measurement, or it is given.
-fn is_determined_without(block: &Block, sight: usize) -> bool {
-    let photo = block.sights[sight].photo;
-    let mark = &block.marks[block.sights[sight].point];
-    let known = block.anchored && mark.known.is_some();
-    let others = mark
-        .sights
-        .iter()
-        .filter(|&&s| block.sights[s].photo != photo && block.sights[s].taken && block.misfit_px(s).is_some());
-    mark.xyz.is_some() && (known || others.count() >= 2)
+fn is_determined_without(block: &OrientationBlock, observation: usize) -> bool {
+    let photo = block.observations[observation].photo;
+    let block_point = &block.points[block.observations[observation].point];
+    let known = block.anchored && block_point.known.is_some();
+    let others = block_point.observations.iter().filter(|&&s| {
+        block.observations[s].photo != photo && block.observations[s].taken && block.misfit_px(s).is_some()
+    });
+    block_point.xyz.is_some() && (known || others.count() >= 2)
 }

@@ -1,4 +1,4 @@
-//! Measurements that miss by little carry no wrong names.
+//! Measurements that miss by little do not have wrong names.
 //!
 //! A wrong name lies anywhere in the photo: it lies within r of where its point should be with the probability p = πr²/A, where A
 //! is the area of the photo. What a rough model has left out, because a point of narrow rays or a photo of few points was not yet
@@ -6,28 +6,28 @@
 //! on average (Benjamini and Hochberg 1995, with these p). They take part in one more adjustment, and its residuals tell which of
 //! them agree: the redundancy of the network decides, and not the distance from a point that was determined without them.
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use super::refine::{Freedom, refine};
-use super::seed::Outcome;
+use super::seed::NetworkQuality;
 
-/// Share of wrong names among the measurements that are looked at once more, on average.
+/// Share of wrong names among the measurements that are examined once more, on average.
 const WRONG_NAMES: f64 = 0.05;
 /// Adjustments in a row: what has come back in may show that more has to.
 const MOST_ROUNDS: usize = 4;
 
 /// Takes back in what was left out and agrees in an adjustment that it takes part in.
-pub(super) fn readmit(block: &mut Block) {
+pub(super) fn readmit(block: &mut OrientationBlock) {
     for _ in 0..MOST_ROUNDS {
         let near = near_misses(block);
         if near.is_empty() {
             return;
         }
         let mut next = block.clone();
-        near.iter().for_each(|&s| next.sights[s].taken = true);
+        near.iter().for_each(|&s| next.observations[s].taken = true);
         refine(&mut next, Freedom::Everything);
         next.intersect_new(0.0);
         next.review();
-        if Outcome::of(&next).told <= Outcome::of(block).told {
+        if NetworkQuality::of(&next).evidence <= NetworkQuality::of(block).evidence {
             return;
         }
         *block = next;
@@ -35,10 +35,10 @@ pub(super) fn readmit(block: &mut Block) {
 }
 
 /// The measurements that were left out though they miss by less than wrong names would.
-fn near_misses(block: &Block) -> Vec<usize> {
-    let left_out = (0..block.sights.len()).filter(|&s| !block.sights[s].taken);
+fn near_misses(block: &OrientationBlock) -> Vec<usize> {
+    let left_out = (0..block.observations.len()).filter(|&s| !block.observations[s].taken);
     let missing = left_out.filter_map(|s| {
-        let camera = &block.cameras[block.views[block.sights[s].photo].camera];
+        let camera = &block.cameras[block.photos[block.observations[s].photo].camera];
         let area = f64::from(camera.width) * f64::from(camera.height);
         Some(((std::f64::consts::PI * block.misfit_px(s)?.powi(2) / area).min(1.0), s))
     });

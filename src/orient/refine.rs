@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::block::{Block, principal_distance_px};
+use super::block::{OrientationBlock, principal_distance_px};
 use crate::adjust::{Numbering, camera_sigmas, values};
 use crate::initial::Pose;
 use crate::project::{Camera, Datum, DatumKind, Observation, Parameter, Photo, Point, Project, Role, Sigma};
@@ -11,7 +11,7 @@ use crate::rotation;
 /// Largest factor a principal distance may be off from a given one.
 const FARTHEST_FROM_GIVEN: f64 = 1.55;
 
-/// What of the cameras is estimated.
+/// Estimated parameters of the cameras.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Freedom {
     /// Nothing.
@@ -22,10 +22,10 @@ pub(super) enum Freedom {
     Everything,
 }
 
-/// Fewest photos of a network, and measurements per camera, that a principal distance is estimated from.
+/// Minimum number of photos of a network, and measurements per camera, that a principal distance is estimated from.
 const FEWEST_PHOTOS: usize = 3;
-const FEWEST_SIGHTS: usize = 30;
-/// Most adjustments in a row, each of so many iterations at most.
+const FEWEST_OBSERVATIONS: usize = 30;
+/// Maximum number of adjustments in a row, each of so many iterations at most.
 const MOST_ROUNDS: usize = 4;
 const MOST_ITERATIONS: usize = 30;
 /// Steps shorter than this part of the standard errors end an adjustment on the way: what follows tells measurements
@@ -39,8 +39,8 @@ const KEPT: usize = 3;
 const LARGEST_CHANGE: f64 = 2.0;
 
 /// Adjusts poses, points and, as far as asked, cameras; then reviews which measurements agree. Tries with less freedom
-/// where the network does not bear more, and leaves the block as it was where nothing converges.
-pub(super) fn refine(block: &mut Block, freedom: Freedom) {
+/// where the network does not determine more, and leaves the block as it was where nothing converges.
+pub(super) fn refine(block: &mut OrientationBlock, freedom: Freedom) {
     let steps: &[Freedom] = match freedom {
         Freedom::Held => &[Freedom::Held],
         Freedom::Distance => &[Freedom::Distance, Freedom::Held],
@@ -51,7 +51,7 @@ pub(super) fn refine(block: &mut Block, freedom: Freedom) {
         // Again as long as it changes which measurements agree: those that stood out of a rough model come back in.
         for _ in 0..MOST_ROUNDS {
             let Some(next) = attempt(&best, step) else { break };
-            let changed = next.sights.iter().zip(&best.sights).filter(|(a, b)| a.taken != b.taken).count();
+            let changed = next.observations.iter().zip(&best.observations).filter(|(a, b)| a.taken != b.taken).count();
             best = next;
             if changed == 0 || freedom != Freedom::Everything && changed * FEW <= best.agreeing() {
                 break;
@@ -64,8 +64,8 @@ pub(super) fn refine(block: &mut Block, freedom: Freedom) {
 }
 
 /// Standard errors of the principal distances in pixels as the network alone determines them, per camera; infinite where
-/// it does not, none where a camera's is not estimated.
-pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
+/// it does not, `None` if a camera's is not estimated.
+pub(super) fn distance_sigmas_px(block: &OrientationBlock) -> Vec<Option<f64>> {
     let mut sigmas = vec![None; block.cameras.len()];
     let Some(mut part) = part(block, Freedom::Everything) else { return sigmas };
     // However weak the network: that is what is asked.
@@ -83,7 +83,7 @@ pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
     sigmas
 }
 
-fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
+fn attempt(block: &OrientationBlock, freedom: Freedom) -> Option<OrientationBlock> {
     let part = part(block, freedom)?;
     let adjusted = values(&part.project, &part.numbering, MOST_ITERATIONS, NEGLIGIBLE)?;
     let mut next = block.clone();
@@ -99,11 +99,11 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
         place.interior = camera.interior;
     }
     for (photo, &k) in adjusted.photos.iter().zip(&part.photos) {
-        next.views[k].pose = Pose::of_photo(photo);
+        next.photos[k].pose = Pose::of_photo(photo);
     }
     for (point, &k) in adjusted.points.iter().zip(&part.points) {
         let xyz = point.xyz.filter(|xyz| xyz.iter().all(|x| x.is_finite()))?;
-        next.marks[k].xyz = Some(xyz.into());
+        next.points[k].xyz = Some(xyz.into());
     }
     next.refresh_rays();
     next.review();
@@ -113,17 +113,18 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
         return None;
     }
     // Points may have been carried behind a camera by what turned out to disagree: they start again.
-    for point in 0..next.marks.len() {
-        let lost = next.marks[point].sights.iter().filter(|&&s| next.misfit_px(s) == Some(f64::INFINITY)).count();
+    for point in 0..next.points.len() {
+        let lost =
+            next.points[point].observations.iter().filter(|&&s| next.misfit_px(s) == Some(f64::INFINITY)).count();
         if lost > 0 {
-            next.marks[point].xyz = if next.anchored { next.marks[point].known } else { None };
+            next.points[point].xyz = if next.anchored { next.points[point].known } else { None };
         }
     }
     Some(next)
 }
 
 /// The oriented part as a document without names, numbered; of its photos, points and cameras the places in the whole project.
-struct Part {
+struct OrientedPart {
     project: Project,
     numbering: Numbering,
     photos: Vec<usize>,
@@ -131,30 +132,30 @@ struct Part {
     cameras: Vec<usize>,
 }
 
-fn part(block: &Block, freedom: Freedom) -> Option<Part> {
+fn part(block: &OrientationBlock, freedom: Freedom) -> Option<OrientedPart> {
     let sigma = Sigma::One(block.noise_px.unwrap_or(1.0).max(0.02));
     let (mut project, mut numbering) = (Project::default(), Numbering::default());
     let mut rays: BTreeMap<usize, usize> = BTreeMap::new();
-    let usable = |s: &&super::block::Sight| {
-        let is_wide = block.cameras[block.views[s.photo].camera].interior.model().is_wide;
+    let usable = |s: &&super::block::BlockObservation| {
+        let is_wide = block.cameras[block.photos[s.photo].camera].interior.model().is_wide;
         let imaged = s.ray.is_some() || is_wide;
-        s.taken && imaged && block.views[s.photo].pose.is_some() && block.marks[s.point].xyz.is_some()
+        s.taken && imaged && block.photos[s.photo].pose.is_some() && block.points[s.point].xyz.is_some()
     };
-    for sight in block.sights.iter().filter(usable) {
-        *rays.entry(sight.point).or_default() += 1;
+    for observation in block.observations.iter().filter(usable) {
+        *rays.entry(observation.point).or_default() += 1;
     }
-    let held = |point: usize| block.anchored && block.marks[point].control && block.marks[point].known.is_some();
+    let held = |point: usize| block.anchored && block.points[point].control && block.points[point].known.is_some();
     rays.retain(|point, count| *count >= 2 || held(*point));
     let points: Vec<usize> = rays.keys().copied().collect();
-    let mut measured = vec![0; block.views.len()];
-    for sight in block.sights.iter().filter(usable).filter(|s| rays.contains_key(&s.point)) {
-        measured[sight.photo] += 1;
-        numbering.sights.push((sight.photo, points.partition_point(|p| *p < sight.point)));
+    let mut measured = vec![0; block.photos.len()];
+    for observation in block.observations.iter().filter(usable).filter(|s| rays.contains_key(&s.point)) {
+        measured[observation.photo] += 1;
+        numbering.observations.push((observation.photo, points.partition_point(|p| *p < observation.point)));
         project.observations.push(Observation {
             photo: String::new(),
             point: String::new(),
-            u: sight.pixel[0],
-            v: sight.pixel[1],
+            u: observation.pixel[0],
+            v: observation.pixel[1],
             sigma,
             enabled: true,
             target: None,
@@ -162,29 +163,29 @@ fn part(block: &Block, freedom: Freedom) -> Option<Part> {
     }
     let mut controls = 0;
     for &point in &points {
-        let mark = &block.marks[point];
+        let block_point = &block.points[point];
         controls += usize::from(held(point));
         project.points.push(Point {
             role: if held(point) { Role::Control } else { Role::Tie },
-            sigma: if held(point) { mark.sigma } else { None },
-            xyz: if held(point) { mark.known } else { mark.xyz }.map(Into::into),
+            sigma: if held(point) { block_point.sigma } else { None },
+            xyz: if held(point) { block_point.known } else { block_point.xyz }.map(Into::into),
             ..Point::default()
         });
     }
     let mut photos = Vec::new();
     let mut cameras: BTreeMap<usize, usize> = BTreeMap::new();
-    for (k, view) in block.views.iter().enumerate() {
-        let (Some(pose), true) = (view.pose, measured[k] > 0) else { continue };
-        *cameras.entry(view.camera).or_default() += measured[k];
+    for (k, block_photo) in block.photos.iter().enumerate() {
+        let (Some(pose), true) = (block_photo.pose, measured[k] > 0) else { continue };
+        *cameras.entry(block_photo.camera).or_default() += measured[k];
         photos.push(k);
         project.photos.push(Photo {
             position: Some(pose.centre.into()),
             rotation: Some(rotation::angles(&pose.object_to_camera)),
-            ..view.as_photo()
+            ..block_photo.as_photo()
         });
     }
-    for (&camera, &sights) in &cameras {
-        let strong = (project.photos.len() >= FEWEST_PHOTOS || controls >= 6) && sights >= FEWEST_SIGHTS;
+    for (&camera, &observations) in &cameras {
+        let strong = (project.photos.len() >= FEWEST_PHOTOS || controls >= 6) && observations >= FEWEST_OBSERVATIONS;
         project.cameras.push(freed(
             block,
             camera,
@@ -192,18 +193,18 @@ fn part(block: &Block, freedom: Freedom) -> Option<Part> {
         ));
     }
     let cameras: Vec<usize> = cameras.into_keys().collect();
-    for (photo, _) in &mut numbering.sights {
+    for (photo, _) in &mut numbering.observations {
         *photo = photos.partition_point(|k| k < photo);
     }
-    numbering.cameras = photos.iter().map(|k| cameras.partition_point(|c| *c < block.views[*k].camera)).collect();
+    numbering.cameras = photos.iter().map(|k| cameras.partition_point(|c| *c < block.photos[*k].camera)).collect();
     let kind = if controls >= 3 { DatumKind::Control } else { DatumKind::Free };
     project.datum = Datum { kind, points: None };
     let enough = project.photos.len() >= 2 || controls >= 3;
-    enough.then_some(Part { project, numbering, photos, points, cameras })
+    enough.then_some(OrientedPart { project, numbering, photos, points, cameras })
 }
 
 /// The camera with what may be estimated of it at this freedom, and nothing else.
-fn freed(block: &Block, camera: usize, freedom: Freedom) -> Camera {
+fn freed(block: &OrientationBlock, camera: usize, freedom: Freedom) -> Camera {
     let mut part = block.cameras[camera].clone();
     let distance = part.interior.model().distance;
     if freedom != Freedom::Everything {

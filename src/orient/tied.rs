@@ -3,19 +3,19 @@
 
 use crate::initial::intersection::{Ray, intersect};
 
-use super::block::{Block, NEAR_A_PAIR, pairs_of};
+use super::block::{NEAR_A_PAIR, OrientationBlock, pairs_of};
 
 /// Where more than one point in so many is tied it is poses that are wrong, and not names; so many are names in any case.
 const FEW: usize = 10;
 const ANY: usize = 3;
 
-/// The measurements of a point that speak for either of two places; none where one place has more of them.
-pub(super) fn sides(block: &Block, point: usize) -> Option<[Vec<usize>; 2]> {
+/// The observations of a point that support each of two positions; `None` if one place has more of them.
+pub(super) fn sides(block: &OrientationBlock, point: usize) -> Option<[Vec<usize>; 2]> {
     let (which, rays) = block.rays(point);
     if rays.len() < 4 {
         return None;
     }
-    let tolerance: Vec<f64> = which.iter().map(|&s| block.tolerance_px(block.sights[s].photo)).collect();
+    let tolerance: Vec<f64> = which.iter().map(|&s| block.tolerance_px(block.observations[s].photo)).collect();
     let mut sets: Vec<Vec<usize>> = Vec::new();
     for [a, b] in pairs_of(rays.len()) {
         let Some(set) = meeting(&rays, &tolerance, [a, b]) else { continue };
@@ -55,22 +55,22 @@ fn meeting(rays: &[Ray], tolerance: &[f64], pair: [usize; 2]) -> Option<Vec<usiz
 }
 
 /// Takes the coordinates of tied points back; given ones decide by themselves.
-pub(super) fn release(block: &mut Block) {
-    let open = |point: &usize| !(block.anchored && block.marks[*point].known.is_some());
+pub(super) fn release(block: &mut OrientationBlock) {
+    let open = |point: &usize| !(block.anchored && block.points[*point].known.is_some());
     // Only of points that many of their rays disagree with.
     let disputed = |point: &usize| {
-        let mark = &block.marks[*point];
-        let compared = mark.sights.iter().filter(|&&s| block.misfit_px(s).is_some());
-        let (all, agreeing) = compared.fold((0, 0), |(n, m), &s| (n + 1, m + usize::from(block.sights[s].taken)));
+        let block_point = &block.points[*point];
+        let compared = block_point.observations.iter().filter(|&&s| block.misfit_px(s).is_some());
+        let (all, agreeing) = compared.fold((0, 0), |(n, m), &s| (n + 1, m + usize::from(block.observations[s].taken)));
         all >= 4 && 2 * agreeing <= all
     };
-    let compared = (0..block.marks.len()).filter(|&point| block.marks[point].xyz.is_some());
+    let compared = (0..block.points.len()).filter(|&point| block.points[point].xyz.is_some());
     let tied: Vec<usize> =
         compared.clone().filter(open).filter(disputed).filter(|&point| sides(block, point).is_some()).collect();
     if tied.len() > ANY.max(compared.count() / FEW) {
         return;
     }
     for point in tied {
-        block.marks[point].xyz = None;
+        block.points[point].xyz = None;
     }
 }

@@ -3,18 +3,18 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use crate::project::Project;
 
 /// Sets the smaller groups of a free model apart, largest first; none while all hang together. The project is what the block makes
 /// of it. Given coordinates and poses tie groups by themselves.
-pub(super) fn split(block: &mut Block, project: &Project) -> Vec<Block> {
-    if block.anchored || block.views.iter().any(|view| view.given) {
+pub(super) fn split(block: &mut OrientationBlock, project: &Project) -> Vec<OrientationBlock> {
+    if block.anchored || block.photos.iter().any(|block_photo| block_photo.given) {
         return Vec::new();
     }
     let mut groups = groups(block, project);
     groups.sort_by_key(|group| (std::cmp::Reverse(group.len()), group[0]));
-    let apart: Vec<Block> = groups.iter().skip(1).map(|group| alone(block, group)).collect();
+    let apart: Vec<OrientationBlock> = groups.iter().skip(1).map(|group| alone(block, group)).collect();
     if let (Some(largest), false) = (groups.first(), apart.is_empty()) {
         *block = alone(block, largest);
         block.review();
@@ -23,9 +23,9 @@ pub(super) fn split(block: &mut Block, project: &Project) -> Vec<Block> {
 }
 
 /// The photos with poses, in groups that common points join.
-fn groups(block: &Block, project: &Project) -> Vec<Vec<usize>> {
+fn groups(block: &OrientationBlock, project: &Project) -> Vec<Vec<usize>> {
     let photo_at: HashMap<&str, usize> = project.photos.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
-    let mut group: Vec<usize> = (0..block.views.len()).collect();
+    let mut group: Vec<usize> = (0..block.photos.len()).collect();
     let mut first: HashMap<&str, usize> = HashMap::new();
     for observation in project.observations.iter().filter(|o| o.enabled) {
         let photo = photo_at[observation.photo.as_str()];
@@ -36,21 +36,21 @@ fn groups(block: &Block, project: &Project) -> Vec<Vec<usize>> {
         }
     }
     let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for photo in (0..group.len()).filter(|&k| block.views[k].pose.is_some()) {
+    for photo in (0..group.len()).filter(|&k| block.photos[k].pose.is_some()) {
         groups.entry(group[photo]).or_default().push(photo);
     }
     groups.into_values().collect()
 }
 
 /// The block with the poses of some photos only, and the points that these determine.
-fn alone(block: &Block, photos: &[usize]) -> Block {
+fn alone(block: &OrientationBlock, photos: &[usize]) -> OrientationBlock {
     let mut part = block.clone();
-    for (k, view) in part.views.iter_mut().enumerate() {
-        view.pose = view.pose.filter(|_| photos.contains(&k));
+    for (k, block_photo) in part.photos.iter_mut().enumerate() {
+        block_photo.pose = block_photo.pose.filter(|_| photos.contains(&k));
     }
-    for point in 0..part.marks.len() {
+    for point in 0..part.points.len() {
         if part.rays(point).0.len() < 2 {
-            part.marks[point].xyz = None;
+            part.points[point].xyz = None;
         }
     }
     part
@@ -79,10 +79,11 @@ mod tests {
             let (photo, point) = (photo.into(), point.into());
             project.observations.push(Observation { photo, point, u: 0.0, v: 0.0, sigma, enabled, target: None });
         }
-        let mut block = Block::new(&project);
-        block.views.iter_mut().take(5).for_each(|view| view.pose = Some(Pose::identity()));
-        let posed = |block: &Block| -> Vec<usize> { (0..6).filter(|&k| block.views[k].pose.is_some()).collect() };
-        let mut tied = Block { anchored: true, ..block.clone() };
+        let mut block = OrientationBlock::new(&project);
+        block.photos.iter_mut().take(5).for_each(|block_photo| block_photo.pose = Some(Pose::identity()));
+        let posed =
+            |block: &OrientationBlock| -> Vec<usize> { (0..6).filter(|&k| block.photos[k].pose.is_some()).collect() };
+        let mut tied = OrientationBlock { anchored: true, ..block.clone() };
         assert!(split(&mut tied, &project).is_empty());
         assert_eq!(posed(&tied), [0, 1, 2, 3, 4]);
         let apart = split(&mut block, &project);

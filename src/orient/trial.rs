@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::Vector3;
 
-use super::block::Block;
+use super::block::OrientationBlock;
 use crate::adjust::ending;
 use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use crate::error::{Defect, Error};
@@ -24,7 +24,7 @@ const TOGETHER: f64 = 0.3;
 const FEW: usize = 10;
 
 /// Gives up points and photos of the block until `as_project` of it can be adjusted, or nothing more is found; whether it can.
-pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) -> bool {
+pub(super) fn settle(block: &mut OrientationBlock, as_project: impl Fn(&OrientationBlock) -> Project) -> bool {
     for _ in 0..MOST_TRIALS {
         let project = as_project(block);
         let options = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
@@ -35,15 +35,15 @@ pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) 
             Err(_) => return false,
         };
         let mut changed = false;
-        for (point, mark) in project.points.iter().zip(&mut block.marks) {
-            if mark.xyz.is_some() && point.role == Role::Tie && points.contains(&point.id) {
-                mark.xyz = None;
+        for (point, block_point) in project.points.iter().zip(&mut block.points) {
+            if block_point.xyz.is_some() && point.role == Role::Tie && points.contains(&point.id) {
+                block_point.xyz = None;
                 changed = true;
             }
         }
-        for (photo, view) in project.photos.iter().zip(&mut block.views) {
-            if !changed && view.pose.is_some() && !view.given && photos.contains(&photo.id) {
-                view.pose = None;
+        for (photo, block_photo) in project.photos.iter().zip(&mut block.photos) {
+            if !changed && block_photo.pose.is_some() && !block_photo.given && photos.contains(&photo.id) {
+                block_photo.pose = None;
                 changed = true;
             }
         }

@@ -1,35 +1,35 @@
 //! Whether given coordinates are a mirror image of the object.
 //!
-//! A similarity X' = t + s R X carries the network of the photos onto the given coordinates. All 48 signed permutations of the given
+//! A similarity X' = t + s R X transforms the network of the photos to the given coordinates. All 48 signed permutations of the given
 //! axes make two cases only: those of determinant +1 are rotations, which R absorbs, and those of determinant -1 differ from each other
 //! by rotations. So two fits are compared, of the coordinates as given and of their mirror image, by their squared distances over the
 //! variances, each cut off ([`CUT`]) so that single wrong points do not decide. Points in a plane fit both ways: then the side that the
 //! cameras stand on decides, or nothing.
 //!
 //! The mirror image has many names. Which slip is proposed follows from what the photos show of up and down, and from the size and signs
-//! of the coordinates; what these do not tell apart is named as well.
+//! of the coordinates; exchanges that these cannot distinguish are named as well.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::adjustment::{Exchange, MirroredControl, UndecidedAxes};
 use crate::initial::robust::quantile;
 use crate::initial::similarity::{Similarity, fit, fit_robust};
-use crate::initial::{Pose, Spread};
+use crate::initial::{Pose, PrincipalAxes};
 
-/// A point as the photos have it and as it is given.
+/// A point in the photos' network and its given coordinates.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair {
+pub struct PointPair {
     /// In the system of the photos' network.
     pub free: Vector3<f64>,
     /// As given.
     pub given: Vector3<f64>,
     /// Standard error of a coordinate of `free`, its unit.
     pub free_sigma: f64,
-    /// Standard error of a given coordinate, its unit; 0 where it is held.
+    /// Standard error of a given coordinate, its unit; 0 if it is held.
     pub given_sigma: f64,
 }
 
-/// What there is to ask.
+/// The questions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
     /// The axes are mirrored.
@@ -76,11 +76,11 @@ const CLOSE: f64 = 0.05;
 /// Times that standard errors of given coordinates may be too small. A single wrong point of four bends both fits, and may bend the mirrored
 /// one less.
 const OPTIMISTIC: f64 = 10.0;
-/// Ratio of the two rms at which a mirror image is believed; relief of five standard errors gives less than 0.3.
+/// Ratio of the two rms at which a mirror image is accepted; relief of five standard errors gives less than 0.3.
 const BETTER: f64 = 0.5;
 
-/// One of the two fits.
-struct Fit {
+/// A similarity fit, as given or mirrored.
+struct HandednessFit {
     transform: Similarity,
     /// Distances over their standard errors.
     ratios: Vec<f64>,
@@ -89,14 +89,14 @@ struct Fit {
 const MIRROR: Vector3<f64> = Vector3::new(-1.0, 1.0, 1.0);
 
 /// Compares the fits as given and mirrored.
-pub fn handedness(pairs: &[Pair]) -> Handedness {
+pub fn handedness(pairs: &[PointPair]) -> Handedness {
     let source: Vec<Vector3<f64>> = pairs.iter().map(|p| p.free).collect();
     let given: Vec<Vector3<f64>> = pairs.iter().map(|p| p.given).collect();
     let mirrored: Vec<Vector3<f64>> = given.iter().map(|g| g.component_mul(&MIRROR)).collect();
-    let Ok(spread) = Spread::of(&given) else { return Handedness::Neither };
+    let Ok(spread) = PrincipalAxes::of(&given) else { return Handedness::Neither };
     let extent = spread.extent.norm();
     // All points together where they agree, else those that do: of few points a robust fit may find a few that agree by chance.
-    let of = |target: &[Vector3<f64>]| -> Vec<Fit> {
+    let of = |target: &[Vector3<f64>]| -> Vec<HandednessFit> {
         let found = [fit(&source, target), fit_robust(&source, target, 0).map(|(fit, _)| fit)];
         let each = found.into_iter().flatten().map(|found| {
             let transform = found.transform;
@@ -104,7 +104,7 @@ pub fn handedness(pairs: &[Pair]) -> Handedness {
                 let sigma = pair.given_sigma.hypot(transform.scale * pair.free_sigma).max(1e-9 * extent);
                 (transform.point(&pair.free) - target).norm() / sigma
             });
-            Fit { transform, ratios: ratios.collect() }
+            HandednessFit { transform, ratios: ratios.collect() }
         });
         each.collect()
     };
@@ -112,14 +112,14 @@ pub fn handedness(pairs: &[Pair]) -> Handedness {
     // Standard errors that are too small are enlarged by what the best of the fits leaves.
     let spare = (3 * pairs.len()).saturating_sub(7).max(1) as f64;
     // The median length of three-dimensional residuals is 1.538 standard deviations of a coordinate.
-    let scatter = |fit: &Fit| quantile(&fit.ratios, 0.5) / 1.538 * (1.0 + 5.0 / spare);
+    let scatter = |fit: &HandednessFit| quantile(&fit.ratios, 0.5) / 1.538 * (1.0 + 5.0 / spare);
     let unit = as_given.iter().chain(&reflected).map(scatter).fold(f64::INFINITY, f64::min).max(1.0);
     let stated = pairs.iter().all(|p| p.given_sigma > 0.0);
     if stated && unit > OPTIMISTIC {
         return Handedness::Neither;
     }
-    let squares = |fit: &Fit| -> f64 { fit.ratios.iter().map(|r| (r / unit).min(CUT).powi(2)).sum() };
-    let better = |fits: Vec<Fit>| fits.into_iter().min_by(|a, b| squares(a).total_cmp(&squares(b)));
+    let squares = |fit: &HandednessFit| -> f64 { fit.ratios.iter().map(|r| (r / unit).min(CUT).powi(2)).sum() };
+    let better = |fits: Vec<HandednessFit>| fits.into_iter().min_by(|a, b| squares(a).total_cmp(&squares(b)));
     let (Some(as_given), Some(reflected)) = (better(as_given), better(reflected)) else { return Handedness::Neither };
     let difference = squares(&as_given) - squares(&reflected);
     let best = if difference > 0.0 { &reflected } else { &as_given };
@@ -154,9 +154,9 @@ const FAR: f64 = 3.0;
 /// leaves less, and both of its sides are the same to the photos.
 const ABOVE: f64 = 0.3;
 
-/// What there is to ask of given coordinates, from the points that both have and the photos' poses in the photos' system; none where the
+/// What there is to ask of given coordinates, from the points that both have and the photos' poses in the photos' system; `None` if the
 /// axes are as they should be, or where nothing fits.
-pub fn question(pairs: &[Pair], poses: &[Pose]) -> Option<Question> {
+pub fn question(pairs: &[PointPair], poses: &[Pose]) -> Option<Question> {
     if pairs.len() < 3 {
         return None;
     }
@@ -180,7 +180,7 @@ pub fn question(pairs: &[Pair], poses: &[Pose]) -> Option<Question> {
     }
 }
 
-/// What the photos show, in the given system.
+/// Directions of the photos in the given coordinate system.
 struct Shown {
     /// Mean of the photos' upward directions: of unit length where they agree.
     up: Vector3<f64>,
@@ -189,7 +189,7 @@ struct Shown {
 }
 
 impl Shown {
-    fn of(pairs: &[Pair], poses: &[Pose], to_given: &Matrix3<f64>) -> Self {
+    fn of(pairs: &[PointPair], poses: &[Pose], to_given: &Matrix3<f64>) -> Self {
         let count = poses.len().max(1) as f64;
         let middle = pairs.iter().map(|p| p.free).sum::<Vector3<f64>>() / pairs.len().max(1) as f64;
         let up = poses.iter().map(|p| p.object_to_camera.row(1).transpose()).sum::<Vector3<f64>>() / count;
@@ -198,7 +198,7 @@ impl Shown {
         Self { up: to_given * up, cameras: (to_given * cameras).try_normalize(1e-9).unwrap_or_else(Vector3::zeros) }
     }
 
-    /// The axis that heights are counted along, and whether they are counted upwards; none where the photos do not tell.
+    /// The axis that heights are counted along, and whether they are counted upwards; `None` if the photos do not tell.
     fn height(&self) -> Option<(usize, bool)> {
         let along = |direction: &Vector3<f64>| {
             let axis = direction.iamax();
@@ -224,7 +224,7 @@ fn proposed(shown: &Shown, given: &[Vector3<f64>]) -> (Exchange, Vec<Exchange>) 
     };
     let sign = [E::X, E::Y, E::Z];
     let middle = given.iter().sum::<Vector3<f64>>() / given.len() as f64;
-    let extent = Spread::of(given).map_or(0.0, |spread| spread.extent.norm());
+    let extent = PrincipalAxes::of(given).map_or(0.0, |spread| spread.extent.norm());
     let side = |axis: usize| {
         let value = middle[axis];
         if value.abs() > FAR * extent { value.signum() } else { 0.0 }

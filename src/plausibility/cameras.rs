@@ -32,7 +32,7 @@ fn units(camera: &Camera) -> f64 {
     camera.residual_pitch()[0]
 }
 
-/// What the cameras alone, and the measurements in their photos, say against them.
+/// Implausible values of the cameras, from the cameras alone and from the measurements in their photos.
 pub fn implausible(project: &Project) -> Vec<ImplausibleCamera> {
     let mut found = Vec::new();
     for camera in &project.cameras {
@@ -69,7 +69,7 @@ pub fn implausible(project: &Project) -> Vec<ImplausibleCamera> {
     found
 }
 
-/// The project without the principal distances that are not believed: they are missing, and free if they were observed.
+/// The project without implausible principal distances: they are missing, and free if they were observed.
 pub fn without(project: &Project, doubts: &[ImplausibleCamera]) -> Option<Project> {
     let is_doubted = |camera: &Camera| {
         doubts.iter().any(|d| d.camera == camera.id && matches!(d.doubt, CameraDoubt::FieldOfView { .. }))

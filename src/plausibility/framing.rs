@@ -36,12 +36,12 @@ pub enum Framing {
 
 /// Points of a network in one photo.
 #[derive(Clone, Debug)]
-pub struct Seen<'a> {
+pub struct PhotoPoints<'a> {
     /// Points that others determine.
     pub object: Vec<Vector3<f64>>,
     /// Where the photo has them, pixels.
     pub pixels: Vec<[f64; 2]>,
-    /// The camera it is said to be taken with.
+    /// The camera assigned to it.
     pub camera: &'a Camera,
     /// Residual up to which a measurement agrees, pixels.
     pub limit_px: f64,
@@ -69,7 +69,7 @@ enum Trial {
     Distance(f64),
 }
 
-impl Seen<'_> {
+impl PhotoPoints<'_> {
     /// Ideal coordinates under a hypothesis, and pixels measured per unit of them.
     fn image(&self, trial: Trial) -> Option<(Vec<[f64; 2]>, f64)> {
         let px = distance_px(self.camera)?;
@@ -132,8 +132,8 @@ impl Seen<'_> {
     }
 }
 
-/// How the photo differs from its camera's pictures; none where it does not, or where no single difference explains it.
-pub fn misframed(seen: &Seen) -> Option<Framing> {
+/// How the photo differs from its camera's pictures; `None` if it does not, or where no single difference explains it.
+pub fn misframed(seen: &PhotoPoints) -> Option<Framing> {
     let count = seen.object.len();
     if count < FEWEST {
         return None;

@@ -10,7 +10,7 @@ use crate::initial::robust::scale;
 /// Robust standard deviations at which a residual has half its weight left.
 const WIDTH: f64 = 4.0;
 const ROUNDS: usize = 30;
-/// Length that stands for a residual that does not exist: behind the camera.
+/// Length used for a residual that does not exist, behind the camera.
 const NOWHERE: f64 = 1e6;
 
 /// Parameters of the minimum near `start`, and the lengths of the residuals there.

@@ -12,7 +12,10 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::least_squares::robust;
-use super::seen::{DISTANCES, Mark, Shot, common, distance_px, is_free, longer_side, set_distance_px, shots};
+use super::seen::{
+    DISTANCES, PhotoMeasurements, PixelMeasurement, common, distance_px, is_free, longer_side, measured_photos,
+    set_distance_px,
+};
 use crate::adjustment::OneStation;
 use crate::camera::ideal_from_pixel;
 use crate::initial::Pose;
@@ -46,8 +49,8 @@ const NEAR: f64 = 0.05;
 /// Roll against each other, radians, beyond which photos of one place are so on purpose.
 const ROLLED: f64 = 0.8;
 
-/// The lens of a shot as it may be.
-struct Lens<'a> {
+/// Camera of a photo with its possible principal distance.
+struct PhotoLens<'a> {
     camera: &'a Camera,
     given: Option<f64>,
     side: f64,
@@ -55,10 +58,10 @@ struct Lens<'a> {
     open: bool,
 }
 
-impl<'a> Lens<'a> {
-    /// That of a shot; `calibrated`: as the network of all photos determines it.
-    fn of(shot: &'a Shot, calibrated: bool) -> Self {
-        let (camera, given) = (&shot.lens, distance_px(&shot.lens));
+impl<'a> PhotoLens<'a> {
+    /// That of a photo; `calibrated`: as the network of all photos determines it.
+    fn of(photo: &'a PhotoMeasurements, calibrated: bool) -> Self {
+        let (camera, given) = (&photo.lens, distance_px(&photo.lens));
         let open = !calibrated && (given.is_none() || DISTANCES.iter().any(|p| is_free(camera, *p)));
         Self { camera, given, side: longer_side(camera), open }
     }
@@ -97,9 +100,11 @@ fn turn(from: &[Vector3<f64>], to: &[Vector3<f64>]) -> Matrix3<f64> {
     rotation::nearest(&cross)
 }
 
-fn rays(camera: &Camera, marks: &[Mark]) -> Option<Vec<Vector3<f64>>> {
-    let ray = |mark: &Mark| ideal_from_pixel(camera, mark.pixel).map(|[x, y]| Vector3::new(x, y, -1.0));
-    marks.iter().map(ray).collect()
+fn rays(camera: &Camera, measurements: &[PixelMeasurement]) -> Option<Vec<Vector3<f64>>> {
+    let ray = |measurement: &PixelMeasurement| {
+        ideal_from_pixel(camera, measurement.pixel).map(|[x, y]| Vector3::new(x, y, -1.0))
+    };
+    measurements.iter().map(ray).collect()
 }
 
 /// Difference of two rays in the second photo, pixels.
@@ -109,11 +114,11 @@ fn off(turned: &Vector3<f64>, ray: &Vector3<f64>, px: f64) -> [f64; 2] {
 
 /// A photo beside the one that all are compared with.
 struct Beside<'a> {
-    lens: Lens<'a>,
+    lens: PhotoLens<'a>,
     camera: usize,
     /// Common points in the first photo and in this one.
-    first: Vec<Mark>,
-    own: Vec<Mark>,
+    first: Vec<PixelMeasurement>,
+    own: Vec<PixelMeasurement>,
     sigmas: Vec<f64>,
     /// Principal distance and rotation from the first photo to this one to start from.
     px: f64,
@@ -122,12 +127,12 @@ struct Beside<'a> {
 
 /// Rotation of least squares with a principal distance for each photo, and the median of what it leaves, pixels.
 fn turned(
-    lens: &Lens,
+    lens: &PhotoLens,
     px: f64,
-    first: &[Mark],
-    other: &Lens,
+    first: &[PixelMeasurement],
+    other: &PhotoLens,
     other_px: f64,
-    own: &[Mark],
+    own: &[PixelMeasurement],
 ) -> Option<(f64, Matrix3<f64>)> {
     let (from, to) = (rays(&lens.with(px, 0.0, [0.0; 2]), first)?, rays(&other.with(other_px, 0.0, [0.0; 2]), own)?);
     let unit = |all: &[Vector3<f64>]| all.iter().map(Vector3::normalize).collect::<Vec<_>>();
@@ -139,8 +144,8 @@ fn turned(
 
 /// Whether photos were taken from the place of the first one, as far as the points show that each has in common with it. One lens explains all
 /// photos of a camera: with one of its own each, two photos of a plane with a small base would be rotations.
-fn are_turned(first: &Shot, others: &[&Shot], calibrated: bool) -> bool {
-    let lens = Lens::of(first, calibrated);
+fn are_turned(first: &PhotoMeasurements, others: &[&PhotoMeasurements], calibrated: bool) -> bool {
+    let lens = PhotoLens::of(first, calibrated);
     let mut beside: Vec<Beside> = Vec::new();
     let mut usual: Option<f64> = None;
     for other in others {
@@ -149,13 +154,13 @@ fn are_turned(first: &Shot, others: &[&Shot], calibrated: bool) -> bool {
             return false;
         }
         let chosen = (0..all.len().min(MOST)).map(|k| all[k * all.len() / all.len().min(MOST)]);
-        let (marks, own): (Vec<Mark>, Vec<Mark>) = chosen.unzip();
-        let of_other = Lens::of(other, calibrated);
+        let (measurements, own): (Vec<PixelMeasurement>, Vec<PixelMeasurement>) = chosen.unzip();
+        let of_other = PhotoLens::of(other, calibrated);
         let shared = first.camera == other.camera;
         let mut best: Option<(f64, [f64; 2], Matrix3<f64>)> = None;
         for px in usual.map_or_else(|| lens.starts(), |px| vec![px]) {
             for other_px in if shared { vec![px] } else { of_other.starts() } {
-                let found = turned(&lens, px, &marks, &of_other, other_px, &own);
+                let found = turned(&lens, px, &measurements, &of_other, other_px, &own);
                 if let Some((median, turn)) = found.filter(|(m, _)| best.as_ref().is_none_or(|(least, ..)| m < least)) {
                     best = Some((median, [px, other_px], turn));
                 }
@@ -165,11 +170,11 @@ fn are_turned(first: &Shot, others: &[&Shot], calibrated: bool) -> bool {
             return false;
         };
         usual = Some(own_px);
-        let sigmas = marks.iter().zip(&own).map(|(a, b)| a.sigma_px.hypot(b.sigma_px).max(FINEST_PX)).collect();
-        beside.push(Beside { lens: of_other, camera: other.camera, first: marks, own, sigmas, px, start });
+        let sigmas = measurements.iter().zip(&own).map(|(a, b)| a.sigma_px.hypot(b.sigma_px).max(FINEST_PX)).collect();
+        beside.push(Beside { lens: of_other, camera: other.camera, first: measurements, own, sigmas, px, start });
     }
     // Three angles a photo, then distance and radial term of every camera that is not calibrated; a principal point where there is one
-    // camera only, since that of a second one would stand for a turn.
+    // camera only, since that of a second one would be equivalent to a rotation.
     let mut steps = vec![1e-7; 3 * beside.len()];
     let alone = beside.iter().all(|b| b.camera == first.camera);
     let mut places: Vec<(usize, usize)> = Vec::new();
@@ -182,7 +187,7 @@ fn are_turned(first: &Shot, others: &[&Shot], calibrated: bool) -> bool {
         }
     }
     let residuals = |p: &DVector<f64>| -> Vec<[f64; 2]> {
-        let with = |lens: &Lens, camera: usize, px: f64| match places.iter().find(|(known, _)| *known == camera) {
+        let with = |lens: &PhotoLens, camera: usize, px: f64| match places.iter().find(|(known, _)| *known == camera) {
             Some(&(_, at)) => {
                 let aside = if alone { [p[at + 2], p[at + 3]] } else { [0.0; 2] };
                 lens.with(px * p[at].exp(), p[at + 1], aside)
@@ -214,7 +219,8 @@ fn are_turned(first: &Shot, others: &[&Shot], calibrated: bool) -> bool {
 
 /// Whether all photos in which enough was measured were taken from one place.
 pub fn is_all(project: &Project) -> Option<OneStation> {
-    let mut open: Vec<Shot> = shots(project).into_iter().filter(|shot| shot.marks.len() >= FEWEST).collect();
+    let mut open: Vec<PhotoMeasurements> =
+        measured_photos(project).into_iter().filter(|photo| photo.measurements.len() >= FEWEST).collect();
     if open.len() < 2 {
         return None;
     }
@@ -228,27 +234,28 @@ pub fn is_all(project: &Project) -> Option<OneStation> {
         joined.push(open.remove(k));
     }
     // Two by two they are; all of them with one lens?
-    let star: Vec<&Shot> =
+    let star: Vec<&PhotoMeasurements> =
         joined[1..].iter().filter(|s| common(&joined[0], s).len() >= FEWEST).take(TOGETHER).collect();
     if star.len() > 1 && !are_turned(&joined[0], &star, false) {
         return None;
     }
-    joined.sort_by_key(|shot| shot.photo);
-    let photos = joined.iter().map(|shot| project.photos[shot.photo].id.clone()).collect();
+    joined.sort_by_key(|photo| photo.photo);
+    let photos = joined.iter().map(|photo| project.photos[photo.photo].id.clone()).collect();
     Some(OneStation { photos, all: true })
 }
 
 /// Groups of photos that were taken from one place each and held alike, in a document with the cameras that its network determines. Photos
-/// that are rolled against each other are no such group: they add to the calibration of their camera, and are taken so on purpose. Oriented
+/// that are rotated about the axis are not such a group: they add to the calibration of their camera, and are taken so on purpose. Oriented
 /// photos are compared where their centres are near to each other for the depth of what they show, others with all.
 pub fn groups(project: &Project) -> Vec<OneStation> {
-    let shots: Vec<Shot> = shots(project).into_iter().filter(|shot| shot.marks.len() >= FEWEST).collect();
-    let poses: Vec<Option<Pose>> = shots.iter().map(|shot| Pose::of_photo(&project.photos[shot.photo])).collect();
-    let depths: Vec<f64> = shots
+    let photos: Vec<PhotoMeasurements> =
+        measured_photos(project).into_iter().filter(|photo| photo.measurements.len() >= FEWEST).collect();
+    let poses: Vec<Option<Pose>> = photos.iter().map(|photo| Pose::of_photo(&project.photos[photo.photo])).collect();
+    let depths: Vec<f64> = photos
         .iter()
         .zip(&poses)
-        .map(|(shot, pose)| {
-            let points = shot.marks.iter().filter_map(|mark| project.points[mark.point].xyz);
+        .map(|(photo, pose)| {
+            let points = photo.measurements.iter().filter_map(|measurement| project.points[measurement.point].xyz);
             let lengths: Vec<f64> = pose
                 .iter()
                 .flat_map(|pose| points.clone().map(move |xyz| (Vector3::from(xyz) - pose.centre).norm()))
@@ -256,9 +263,9 @@ pub fn groups(project: &Project) -> Vec<OneStation> {
             quantile(&lengths, 0.5)
         })
         .collect();
-    let mut group: Vec<usize> = (0..shots.len()).collect();
-    for a in 0..shots.len() {
-        for b in a + 1..shots.len() {
+    let mut group: Vec<usize> = (0..photos.len()).collect();
+    for a in 0..photos.len() {
+        for b in a + 1..photos.len() {
             let near = match (poses[a], poses[b]) {
                 (Some(p), Some(q)) => {
                     let turn = p.object_to_camera * q.object_to_camera.transpose();
@@ -269,18 +276,18 @@ pub fn groups(project: &Project) -> Vec<OneStation> {
                 (None, None) => false,
                 _ => true,
             };
-            if near && group[a] != group[b] && are_turned(&shots[a], &[&shots[b]], true) {
+            if near && group[a] != group[b] && are_turned(&photos[a], &[&photos[b]], true) {
                 let (kept, gone) = (group[a].min(group[b]), group[a].max(group[b]));
                 group.iter_mut().filter(|g| **g == gone).for_each(|g| *g = kept);
             }
         }
     }
-    (0..shots.len())
-        .map(|k| (0..shots.len()).filter(|n| group[*n] == k).collect::<Vec<_>>())
+    (0..photos.len())
+        .map(|k| (0..photos.len()).filter(|n| group[*n] == k).collect::<Vec<_>>())
         .filter(|members| members.len() > 1)
         .map(|members| OneStation {
-            photos: members.iter().map(|n| project.photos[shots[*n].photo].id.clone()).collect(),
-            all: members.len() == shots.len(),
+            photos: members.iter().map(|n| project.photos[photos[*n].photo].id.clone()).collect(),
+            all: members.len() == photos.len(),
         })
         .collect()
 }

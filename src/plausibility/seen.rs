@@ -4,9 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use crate::project::{Camera, Parameter, Project};
 
-/// A measurement.
+/// An image measurement of a point.
 #[derive(Clone, Copy, Debug)]
-pub struct Mark {
+pub struct PixelMeasurement {
     /// Point, as its place in the document.
     pub point: usize,
     /// Where it was measured, pixels.
@@ -15,49 +15,54 @@ pub struct Mark {
     pub sigma_px: f64,
 }
 
-/// A photo that takes part.
+/// A photo that takes part, with its measurements.
 #[derive(Clone, Debug)]
-pub struct Shot {
+pub struct PhotoMeasurements {
     /// Place in the document.
     pub photo: usize,
     /// Place of its camera in the document.
     pub camera: usize,
-    /// What it was taken with.
+    /// The camera, with the photo's own interior orientation.
     pub lens: Camera,
-    /// What was measured in it, by point.
-    pub marks: Vec<Mark>,
+    /// Its measurements, ordered by point.
+    pub measurements: Vec<PixelMeasurement>,
 }
 
 /// The enabled photos with their measurements: the enabled ones, and those that an orientation has set aside.
-pub fn shots(project: &Project) -> Vec<Shot> {
+pub fn measured_photos(project: &Project) -> Vec<PhotoMeasurements> {
     let cameras: HashMap<&str, usize> = project.cameras.iter().enumerate().map(|(k, c)| (c.id.as_str(), k)).collect();
     let points: HashMap<&str, usize> = project.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
     let aside: HashSet<(&str, &str)> = project.set_aside.iter().map(|s| (s.photo.as_str(), s.point.as_str())).collect();
-    let mut shots: Vec<Shot> = Vec::new();
+    let mut photos: Vec<PhotoMeasurements> = Vec::new();
     let mut at: HashMap<&str, usize> = HashMap::new();
     for (k, photo) in project.photos.iter().enumerate().filter(|(_, photo)| photo.enabled) {
         let Some(&camera) = cameras.get(photo.camera.as_str()) else { continue };
-        at.insert(&photo.id, shots.len());
-        shots.push(Shot { photo: k, camera, lens: project.cameras[camera].of_photo(photo), marks: Vec::new() });
+        at.insert(&photo.id, photos.len());
+        photos.push(PhotoMeasurements {
+            photo: k,
+            camera,
+            lens: project.cameras[camera].of_photo(photo),
+            measurements: Vec::new(),
+        });
     }
     for o in &project.observations {
         let offered = o.enabled || aside.contains(&(o.photo.as_str(), o.point.as_str()));
-        let (Some(&shot), Some(&point)) = (at.get(o.photo.as_str()), points.get(o.point.as_str())) else { continue };
+        let (Some(&photo), Some(&point)) = (at.get(o.photo.as_str()), points.get(o.point.as_str())) else { continue };
         if offered {
             let [su, sv] = o.sigma.both();
             let sigma_px = (0.5 * (su * su + sv * sv)).sqrt();
-            shots[shot].marks.push(Mark { point, pixel: [o.u, o.v], sigma_px });
+            photos[photo].measurements.push(PixelMeasurement { point, pixel: [o.u, o.v], sigma_px });
         }
     }
-    shots.iter_mut().for_each(|shot| shot.marks.sort_by_key(|mark| mark.point));
-    shots
+    photos.iter_mut().for_each(|photo| photo.measurements.sort_by_key(|measurement| measurement.point));
+    photos
 }
 
 /// Measurements of the points that two photos show.
-pub fn common(a: &Shot, b: &Shot) -> Vec<(Mark, Mark)> {
+pub fn common(a: &PhotoMeasurements, b: &PhotoMeasurements) -> Vec<(PixelMeasurement, PixelMeasurement)> {
     let (mut i, mut j) = (0, 0);
     let mut pairs = Vec::new();
-    while let (Some(m), Some(n)) = (a.marks.get(i), b.marks.get(j)) {
+    while let (Some(m), Some(n)) = (a.measurements.get(i), b.measurements.get(j)) {
         match m.point.cmp(&n.point) {
             std::cmp::Ordering::Less => i += 1,
             std::cmp::Ordering::Greater => j += 1,
@@ -70,7 +75,7 @@ pub fn common(a: &Shot, b: &Shot) -> Vec<(Mark, Mark)> {
     pairs
 }
 
-/// Principal distance in pixels; none where it is missing or no length.
+/// Principal distance in pixels; `None` if it is missing or no length.
 pub fn distance_px(camera: &Camera) -> Option<f64> {
     let px = camera.principal_distance_px()?;
     (px.is_finite() && px > 0.0).then_some(px)

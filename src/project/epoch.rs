@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct EpochOf {
     /// Name of its project.
     pub name: String,
-    /// By which the program that keeps projects knows it; empty where it was not kept.
+    /// Identifier in the project storage; empty if it was not stored.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub key: String,
     /// This project's number in the series, the first epoch being 0.

@@ -1,5 +1,5 @@
 //! Definitions of measurements on the result: geometric features of points, coordinate systems of the object, lines between
-//! points in layers. They take no part in the adjustment; they are computed with each of its results ([`crate::features`]).
+//! points in layers. They are not used in the adjustment; they are computed with each of its results ([`crate::features`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ pub struct Feature {
     pub kind: FeatureKind,
 }
 
-/// What a feature is.
+/// Kind of a feature.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum FeatureKind {
@@ -287,7 +287,7 @@ impl Project {
             .filter_map(|p| Some(GivenPoint { id: p.id.clone(), xyz: p.xyz?, sigma: None }))
     }
 
-    /// Names are unique and numbers are numbers; a point that is not there any more is told by the result.
+    /// Names are unique and numbers are numbers; a point that is not there any more is reported in the result.
     pub(super) fn validate_features(&self) -> Result<()> {
         let at = |id: &str| Place::field(format!("features: {id}"));
         let names = unique(Thing::Feature, self.features.iter().map(|f| f.id.as_str()), at)?;
@@ -328,8 +328,8 @@ impl Project {
 
 /// Whether two photos differ in nothing but what is known of their files' contents, which the adjustment does not see.
 fn same_photo(photo: &Photo, other: &Photo) -> bool {
-    let Photo { id, camera, file, position, rotation, sigma_position, interior, enabled, sha256: _, colour } = photo;
-    (id, camera, file, enabled, colour) == (&other.id, &other.camera, &other.file, &other.enabled, &other.colour)
+    let Photo { id, camera, file, position, rotation, sigma_position, interior, enabled, sha256: _ } = photo;
+    (id, camera, file, enabled) == (&other.id, &other.camera, &other.file, &other.enabled)
         && (position, rotation) == (&other.position, &other.rotation)
         && (sigma_position, interior) == (&other.sigma_position, &other.interior)
 }

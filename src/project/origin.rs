@@ -1,6 +1,9 @@
-//! Where a project or a calibration comes from, if another program's files were read: what the reader assumed, left out and converted.
+//! Where a project or a calibration comes from, if files of another program or of an earlier version were read: what the reader assumed, left
+//! out and converted.
 
 use serde::{Deserialize, Serialize};
+
+use super::local_system::LocalSystem;
 
 /// Something of a file that has no place in the document, or of the document that has none in the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,7 +14,7 @@ pub struct Ignored {
     pub count: usize,
 }
 
-/// What a reader took for granted, since the format leaves it open.
+/// An assumption of a reader about something that the format does not specify.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Assumed {
@@ -25,7 +28,7 @@ pub enum Assumed {
     FourCoefficientsRadialTangential,
     /// The unit of length is not in the file: the document's is a name without meaning.
     UnitUnknown,
-    /// The file does not say where in the upper left pixel the origin lies: in the corner of the picture.
+    /// The file does not define the position of the origin in the upper left pixel: in the corner of the picture.
     PixelOriginCorner,
     /// Coordinates of the camera are those of the chunk's own system: the reference system is geographic or a map projection.
     SystemOfChunk,
@@ -50,7 +53,7 @@ pub struct Conversion {
     pub warning: bool,
 }
 
-/// Files of another program that were read. It is no input of the adjustment.
+/// Files of another program, or of an earlier version, that were read. It is not an input of the adjustment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
     /// Format, by its name in the interface.
@@ -58,13 +61,28 @@ pub struct Origin {
     /// Names of the files.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<String>,
-    /// What was assumed.
+    /// Assumptions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<Assumed>,
-    /// What of the files was not kept, with counts.
+    /// Contents of the files that were not imported, with counts.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ignored: Vec<Ignored>,
     /// Cameras whose model was converted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub conversions: Vec<Conversion>,
+    /// The system that latitudes and longitudes of a list were converted into: later lists of the project are converted into the same one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub local_system: Option<LocalSystem>,
+}
+
+impl Origin {
+    /// The format of documents that an earlier version wrote.
+    pub const EARLIER: &str = "sightline";
+    /// The format of a project made here that took a list of latitudes and longitudes.
+    pub const LIST: &str = "control-csv";
+
+    /// Whether the files are those of another program.
+    pub fn is_foreign(&self) -> bool {
+        ![Self::EARLIER, Self::LIST].contains(&self.format.as_str())
+    }
 }

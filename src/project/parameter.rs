@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Name of a parameter of the interior orientation. `F` stands for fx and fy as one.
+/// Name of a parameter of the interior orientation. `F` is fx = fy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs)] // the names are the field's own
@@ -89,14 +89,14 @@ impl FromStr for Parameter {
     }
 }
 
-/// What is known of a camera model besides its equations.
+/// Properties of a camera model besides its equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraModel {
     /// Name in the project format.
     pub name: &'static str,
     /// Parameters in the model's order.
     pub parameters: &'static [Parameter],
-    /// Parameter that stands for the principal distance.
+    /// Parameter that is the principal distance.
     pub distance: Parameter,
     /// Parameters of the principal point.
     pub centre: [Parameter; 2],
@@ -271,7 +271,7 @@ impl Interior {
         Self::Brown { c: Some(c), x0: 0.0, y0: 0.0, k1: 0.0, k2: 0.0, k3: 0.0, p1: 0.0, p2: 0.0, b1: 0.0, b2: 0.0 }
     }
 
-    /// What is known of its model.
+    /// Properties of its model.
     pub fn model(&self) -> &'static CameraModel {
         match self {
             Self::Brown { .. } => &CameraModel::BROWN,
@@ -286,7 +286,7 @@ impl Interior {
         self.model().parameters
     }
 
-    /// Where a parameter stands; none where the model lacks it, and for `F`, which is two.
+    /// Where a parameter stands; `None` if the model lacks it, and for `F`, which is two.
     fn slot(&mut self, parameter: Parameter) -> Option<Slot<'_>> {
         use Parameter as P;
         let value = match self {
@@ -345,7 +345,7 @@ impl Interior {
         Some(Slot::Value(value))
     }
 
-    /// Value of a parameter; none where the model lacks it or it is not known. `F` is fx.
+    /// Value of a parameter; `None` if the model lacks it or it is not known. `F` is fx.
     pub fn get(&self, parameter: Parameter) -> Option<f64> {
         let mut own = *self;
         match own.slot(if parameter == Parameter::F { Parameter::Fx } else { parameter })? {

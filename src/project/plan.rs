@@ -1,6 +1,6 @@
 //! A plan: targets, camera, stations and required accuracy.
 //!
-//! Data of the document; what it promises is computed in `plan`.
+//! Data of the document; its prediction is computed in the crate `sightline-plan`.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,15 +11,15 @@ use super::{Camera, Datum, Point};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Plan {
-    /// Cameras with the values that are expected of them; what is free in them is calibrated with the photos.
+    /// Cameras with expected values; their free parameters are self-calibrated with the photos.
     pub cameras: Vec<Camera>,
-    /// What is sharp.
+    /// Depth of field.
     pub lens: Lens,
-    /// The form that `points` and `faces` were made from; none: they were given.
+    /// The form from which `points` and `faces` were generated; `None`: they were given.
     pub form: Option<Form>,
-    /// Object points at their expected places, with the normals and diameters of their targets.
+    /// Object points at their expected positions, with the normals and diameters of their targets.
     pub points: Vec<Point>,
-    /// Faces that hide what lies behind them.
+    /// Faces that occlude the points behind them.
     pub faces: Vec<PlanFace>,
     /// Scale bars.
     pub distances: Vec<PlanDistance>,
@@ -29,17 +29,17 @@ pub struct Plan {
     pub stations: Vec<PlanStation>,
     /// Other plans of the same object, to compare.
     pub variants: Vec<Variant>,
-    /// Where nobody can stand.
+    /// Regions without access: no station is placed there.
     pub forbidden: Vec<Region>,
     /// Standard error of an image coordinate, pixels.
     pub sigma: f64,
-    /// Largest angle between the ray and the direction a target faces, radians.
+    /// Maximum angle between the ray and the normal of a target, radians.
     pub max_incidence: f64,
-    /// Targets nearer than this to the border of the picture are not counted on, pixels.
+    /// Margin: targets nearer than this to the border of the picture are not used, pixels.
     pub margin: f64,
-    /// Smallest axis of a target's image that is measured, pixels.
+    /// Minimum axis of a target's image, pixels.
     pub least_px: f64,
-    /// What the points have to reach.
+    /// Required accuracy of the points.
     pub wanted: Wanted,
 }
 
@@ -65,15 +65,15 @@ impl Default for Plan {
     }
 }
 
-/// What is sharp in the photos. Without f-number, focus or pixel pitch everything is.
+/// Depth of field of the photos. Without f-number, focus or pixel pitch everything is sharp.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Lens {
     /// f-number.
     pub f_number: Option<f64>,
-    /// Distance that is focused on, in the project's unit.
+    /// Focused distance, in the project's unit.
     pub focus: Option<f64>,
-    /// Largest circle of confusion, pixels.
+    /// Maximum circle of confusion, pixels.
     pub circle_px: f64,
     /// Millimetres in the project's unit.
     pub unit_mm: f64,
@@ -109,7 +109,7 @@ pub struct PlanDistance {
     pub sigma: f64,
 }
 
-/// A photo to take: a place, and what the camera is aimed at or its rotation.
+/// A planned photo: its position, and its aim point or its rotation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PlanStation {
@@ -121,7 +121,7 @@ pub struct PlanStation {
     pub camera: String,
     /// Projection centre.
     pub position: [f64; 3],
-    /// Point on the camera's axis, where no rotation is given.
+    /// Aim point on the camera's axis, if no rotation is given.
     pub look_at: Option<[f64; 3]>,
     /// Omega, phi, kappa in radians.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -137,7 +137,7 @@ pub struct PlanStation {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Variant {
-    /// Name for people.
+    /// Display name.
     pub name: String,
     /// Its photos.
     pub stations: Vec<PlanStation>,
@@ -152,11 +152,11 @@ pub struct Region {
     pub high: [f64; 3],
 }
 
-/// A precision to reach.
+/// A required accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Wanted {
-    /// Half axis of a point's error, in the project's unit.
+    /// Maximum semi-axis of a point's error ellipsoid, in the project's unit.
     pub precision: f64,
     /// Probability that the error along the largest axis is smaller, 0.5 to 0.999.
     pub probability: f64,
@@ -178,11 +178,11 @@ pub enum Form {
         width: f64,
         /// Along Z, or along Y where it lies.
         height: f64,
-        /// Targets beside each other.
+        /// Number of targets per row.
         columns: u32,
-        /// Targets above each other.
+        /// Number of rows of targets.
         rows: u32,
-        /// Whether it stands.
+        /// Whether the plane is upright.
         upright: bool,
         /// Diameter of the targets.
         diameter: f64,
@@ -191,9 +191,9 @@ pub enum Form {
     Box {
         /// Along X, Y and Z.
         size: [f64; 3],
-        /// Targets beside each other on every face.
+        /// Number of targets per row on each face.
         columns: u32,
-        /// Targets above each other on every face.
+        /// Number of rows of targets on each face.
         rows: u32,
         /// Diameter of the targets.
         diameter: f64,
@@ -204,11 +204,11 @@ pub enum Form {
         radius: f64,
         /// Along Z.
         height: f64,
-        /// Share of the turn that has targets, in radians, the middle facing -Y.
+        /// Angle of the arc that has targets, radians; its middle faces -Y.
         sweep: f64,
-        /// Targets around.
+        /// Number of targets per row, around the cylinder.
         columns: u32,
-        /// Targets above each other.
+        /// Number of rows of targets.
         rows: u32,
         /// Whether the targets are inside.
         inside: bool,

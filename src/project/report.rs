@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::identifier::identifier;
-
 /// Language of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ReportLanguage {
@@ -49,13 +47,13 @@ pub enum Section {
     Control,
     /// Length measurement errors after VDI/VDE 2634 part 1.
     Lengths,
-    /// Tests and what they say.
+    /// Tests and their results.
     Statistics,
     /// Residuals photo by photo.
     Residuals,
-    /// What was left out, by whom and why.
+    /// Rejected observations, with the step that rejected them and the reason.
     GrossErrors,
-    /// What was measured on the result: features and coordinate systems.
+    /// Measurements on the result: features and coordinate systems.
     Features,
     /// Options, versions and digests: what it takes to compute it again.
     Settings,
@@ -101,60 +99,20 @@ impl LengthLimit {
     }
 }
 
-/// How far a lens images a colour from green: pixels outwards at the picture's corner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ColourShift {
-    /// Part that grows with the radius.
-    pub linear: f64,
-    /// Part that grows with its third power.
-    pub cubic: f64,
-    /// Standard error of both together.
-    pub sigma: f64,
-    /// Rms of what is left of a target's difference.
-    pub rms: f64,
-    /// Targets that it is from.
-    pub targets: usize,
-    /// Shift of the whole picture, to the right and downwards.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shift: Option<[f64; 2]>,
-    /// Covariances of shift, linear and cubic part, square pixels: the upper triangle, row by row.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub covariance: Option<[f64; 10]>,
-}
-
-/// Lateral chromatic aberration as the targets of one photo show it, which were measured in every colour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PhotoColours {
-    /// Identifier of the photo.
-    #[serde(deserialize_with = "identifier")]
-    pub photo: String,
-    /// Radius of the picture's corners in pixels.
-    pub corner: f64,
-    /// Middle of the picture, from which radii count.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub centre: Option<[f64; 2]>,
-    /// Red against green.
-    #[serde(default)]
-    pub red: Option<ColourShift>,
-    /// Blue against green.
-    #[serde(default)]
-    pub blue: Option<ColourShift>,
-}
-
-/// What a report says besides its numbers, and how it is printed.
+/// Settings of a report: texts besides the numbers, and layout.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ReportSettings {
     /// Its title; empty: the project's name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Who made the measurement.
+    /// Name of the person who measured.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub operator: String,
     /// Of the measurement, as it is to be printed.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub date: String,
-    /// What else is to be said on the first page; lines stay lines.
+    /// Free text on the first page; line breaks are kept.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub text: String,
     /// A picture for the first page: a data: URL of a PNG or JPEG file.
@@ -172,9 +130,6 @@ pub struct ReportSettings {
     /// The largest length measurement error that is permitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_limit: Option<LengthLimit>,
-    /// Colours that were measured apart, photo by photo: told with their cameras, no input of any adjustment.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub colours: Vec<PhotoColours>,
 }
 
 impl Default for ReportSettings {
@@ -190,20 +145,11 @@ impl Default for ReportSettings {
             left_out: vec![Section::AllObservations],
             coverage_factor: 2.0,
             length_limit: None,
-            colours: Vec::new(),
         }
     }
 }
 
 impl ReportSettings {
-    /// Takes the colours of a photo in place of what was known of them.
-    pub fn take_colours(&mut self, colours: PhotoColours) {
-        self.colours.retain(|known| known.photo != colours.photo);
-        if colours.red.is_some() || colours.blue.is_some() {
-            self.colours.push(colours);
-        }
-    }
-
     /// Whether nothing was ever set.
     pub fn is_default(&self) -> bool {
         *self == Self::default()

@@ -16,7 +16,7 @@ const LEAST_ROTATION: f64 = 1e-8;
 /// The pose of every camera relative to the first one is unknown, and the same at every exposure up to the standard errors given here.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rig {
-    /// A row an exposure, a column a camera of the rig: the photos taken together; null where a camera took none. Relative poses are
+    /// A row an exposure, a column a camera of the rig: the photos taken together; null if a camera took none. Relative poses are
     /// counted from the first column's camera.
     pub exposures: Vec<Vec<Option<String>>>,
     /// How well the mount keeps the position of a camera relative to the first one, per axis: standard error in the project's unit.

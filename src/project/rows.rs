@@ -25,7 +25,7 @@ impl<T> Rows<T> {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// The vector behind the table, for whoever keeps track of which tables are alive.
+    /// The vector behind the table, to track which tables are in use.
     #[must_use]
     pub fn shared(&self) -> &Arc<Vec<T>> {
         &self.0

@@ -2,7 +2,7 @@
 //!
 //! Lengths are object coordinates, their standard errors, diameters, distances, projection centres, given coordinates of features
 //! and coordinate systems, the standard error of a rig's positions, the permitted length error, and the lengths of the plan. Image coordinates, interior orientations, angles, normals
-//! and ratios stay. Each type is taken apart field by field, so that a new field does not compile before somebody has decided what it is.
+//! and ratios stay. Each type is taken apart field by field, so that a new field does not compile until it is handled.
 
 use super::{
     CoordinateSystem, Distance, Feature, FeatureKind, Form, GivenPoint, LengthLimit, Lens, Photo, Plan, PlanDistance,
@@ -14,7 +14,7 @@ use crate::error::{Error, Place, Reason, Result};
 /// A length times a factor. A factor that is one over a whole number divides by it, which rounds once: 565 mm are 0.565 m.
 ///
 /// # Errors
-/// [`Error::Invalid`] where the product is beyond what a document holds, or a length other than 0 would become 0.
+/// [`Error::Invalid`] if the product is beyond what a document holds, or a length other than 0 would become 0.
 pub fn scaled(length: f64, factor: f64) -> Result<f64> {
     let whole = factor.recip().round();
     let product = if factor < 1.0 && whole.recip() == factor { length / whole } else { length * factor };
@@ -134,7 +134,6 @@ impl Scale {
             interior: _,
             enabled: _,
             sha256: _,
-            colour: _,
         } = photo;
         self.at = Place::photo(id.as_str()).with_field("position");
         self.lengths(position.iter_mut().flatten());
@@ -182,7 +181,7 @@ impl Scale {
     }
 
     fn report(&mut self, report: &mut ReportSettings) {
-        // `per` is a ratio of lengths, colours are in pixels.
+        // `per` is a ratio of lengths.
         if let Some(LengthLimit { constant, per: _ }) = &mut report.length_limit {
             self.length(constant);
         }

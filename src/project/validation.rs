@@ -10,7 +10,7 @@ use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 pub const LARGEST: f64 = 1e100;
 
 impl Project {
-    /// Checks the document; missing initial values are no fault here.
+    /// Checks the document; missing initial values are allowed here.
     ///
     /// # Errors
     /// [`Error::Invalid`], [`Error::Unknown`] or [`Error::Duplicate`] with the first fault found.
@@ -160,7 +160,6 @@ fn camera(camera: &Camera) -> Result<()> {
         return invalid(Reason::PixelPitch, at().with_field("pixel_pitch"));
     }
     interior_orientation(&camera.interior, at)?;
-    camera.validate_colours()?;
     for &p in camera.free.iter().chain(camera.sigma.keys()) {
         if !camera.interior.parameters().contains(&p) {
             return Err(Error::Unknown { kind: Thing::Parameter, name: p.name().into(), at: at().with_field("free") });
@@ -195,7 +194,6 @@ mod tests {
             free: vec![Parameter::C],
             sigma: Default::default(),
             per_photo: false,
-            colours: Default::default(),
         };
         let point = |id: &str| Point { id: id.into(), ..Point::default() };
         Project {

@@ -1,18 +1,19 @@
 //! Selects codes with a large mutual distance.
 //!
 //! The distance of two codes is the smallest Hamming distance between one and any rotation of the other: so many sectors
-//! must be misread before one passes for the other. All codes have even parity, so that distances are even and at least 2. Codes
-//! are taken greedily, by number, for each distance d from the largest down: one is taken when it is d away from all that
-//! were taken before. Codes whose arcs all end on a coarser grid come last of all: alone in a photo they are not read. What lies closer to a code than d is found by turning over every choice of fewer than d of its bits.
+//! must be misread before one is read as the other. All codes have even parity, so distances are even and at least 2. Codes are selected
+//! greedily, by number, for each distance d from the largest down: a code is selected if it has at least the distance d from all codes
+//! selected before. Codes whose arcs all end on a coarser grid come last, since they are not read if they are alone in a photo. Codes
+//! closer than d to a code are found by flipping every choice of fewer than d of its bits.
 
 use super::{Family, coarser_grid, smallest_rotation};
 
 /// A family's codes, those with the largest mutual distance first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Spread {
+pub struct CodesByDistance {
     /// All numbers of the family; those on a coarser grid ([`coarser_grid`]) last.
     pub numbers: Vec<u32>,
-    /// Distance, and how many of the first `numbers` are at least so far from each other; descending by distance.
+    /// Distance, and the number of the first `numbers` that have at least this distance from each other; descending by distance.
     pub counts: Vec<(u32, usize)>,
 }
 
@@ -23,12 +24,12 @@ pub fn distance(a: u32, b: u32, bits: u32) -> u32 {
 }
 
 /// The order in which a family's codes should be used.
-pub fn spread(family: Family) -> Spread {
+pub fn spread(family: Family) -> CodesByDistance {
     let (codes, bits) = (family.codes(), family.bits());
     let mut taken = vec![false; codes.len()];
     let coarse: Vec<bool> = codes.iter().map(|code| coarser_grid(*code, bits).is_some()).collect();
-    let mut found = Spread { numbers: Vec::with_capacity(codes.len()), counts: Vec::new() };
-    // half of the bits is further than two codes can be from each other in every rotation
+    let mut found = CodesByDistance { numbers: Vec::with_capacity(codes.len()), counts: Vec::new() };
+    // two codes differ by less than half of the bits in some rotation
     for least in (2..=bits / 2).rev().filter(|d| d.is_multiple_of(2)) {
         let mut near = vec![false; codes.len()];
         let exclude = |code: u32, near: &mut [bool]| {
@@ -77,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_codes_are_as_far_apart_as_is_said() {
+    fn the_first_codes_have_the_stated_distance() {
         for family in [Family::Ring12, Family::Ring14, Family::Metashape12, Family::Metashape16] {
             let (codes, bits) = (family.codes(), family.bits());
             let spread = spread(family);

@@ -1,11 +1,11 @@
-//! Pictures for showing of what is measured. They are for the eye: means over squares of sites, the brightest part as white.
+//! Pictures for the screen: means over squares of sites, scaled so that the brightest part is white. They are not used for measuring.
 
 use super::Sensor;
 use crate::decode::Picture;
 use crate::detection::Colour;
 use crate::image::{Grey, Samples};
 
-/// Share of the pixels that may be whiter than white.
+/// Share of the pixels that may exceed white.
 const BRIGHTEST: f64 = 0.005;
 
 /// A grey picture, reduced.
@@ -30,14 +30,14 @@ pub fn grey(grey: &Grey, max_side: u32) -> Picture {
     Picture { width: across as u32, height: down as u32, rgba }
 }
 
-/// The samples of a sensor: each pixel from the sites of a square of at least one pattern, black taken off, the colours balanced by
-/// their means, light as its root.
+/// The picture of a sensor: each pixel is the mean of the sites of a square of at least one filter pattern, minus the black level, with
+/// channels balanced by their means and a square-root tone curve.
 pub fn colours(sensor: &Sensor, max_side: u32) -> Picture {
     let pattern = &sensor.mosaic.pattern;
     let least = pattern.width().max(pattern.height()).max(2);
     let step = step([sensor.width, sensor.height], max_side, least);
     let [across, down] = [sensor.width, sensor.height].map(|side| (side / step).max(1));
-    // Large squares are looked at in part.
+    // Of large squares only a part of the sites is used.
     let stride = (step / least / 2).max(1) * least;
     let mut light = vec![[0f32; 3]; across * down];
     for row in 0..down {
@@ -66,7 +66,7 @@ pub fn colours(sensor: &Sensor, max_side: u32) -> Picture {
     Picture { width: across as u32, height: down as u32, rgba }
 }
 
-/// Squares of a pixel's sites that are looked at.
+/// Top left corners of the squares of a pixel's sites that are used.
 fn tiles(
     top: usize,
     step: usize,
@@ -79,7 +79,7 @@ fn tiles(
     rows.flat_map(move |row| (left..(left + step).min(width)).step_by(stride).map(move |column| (row, column)))
 }
 
-/// Red, green and blue that a filter lets through.
+/// Indices of the channels (red, green, blue) that a filter transmits.
 fn parts(colour: Colour) -> &'static [usize] {
     match colour {
         Colour::Red => &[0],
@@ -103,7 +103,7 @@ fn gains(light: &[[f32; 3]]) -> [f32; 3] {
     means.map(|mean| if mean > 0.0 { (means[1].max(1e-3) / mean / white) as f32 } else { (1.0 / white) as f32 })
 }
 
-/// Sites a pixel has on a side, so that no side of the picture exceeds the limit.
+/// Number of sites along a side of a pixel, so that no side of the picture exceeds `max_side`.
 fn step([width, height]: [usize; 2], max_side: u32, least: usize) -> usize {
     let needed = width.max(height).div_ceil(max_side.max(1) as usize);
     needed.max(1).next_multiple_of(least)

@@ -26,7 +26,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// From one letter a site, row by row: "RGGB" with a width of 2. None for other letters and sizes.
+    /// From one letter a site, row by row: "RGGB" with a width of 2. `None` for other letters and sizes.
     pub fn parse(letters: &str, width: usize) -> Option<Self> {
         let site = |letter: char| LETTERS.iter().find(|(known, _)| *known == letter).map(|(_, colour)| *colour);
         let sites: Vec<Colour> = letters.chars().map(site).collect::<Option<_>>()?;
@@ -82,7 +82,7 @@ impl<'de> Deserialize<'de> for Pattern {
     }
 }
 
-/// What a sample is without light: a repeating pattern, and what rows and columns add.
+/// Level of a sample without light: a repeating pattern, and what rows and columns add.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Black {

@@ -72,12 +72,12 @@ mod tests {
 
     use super::super::{Black, Mosaic, Pattern};
     use super::*;
-    use crate::decode::Photo;
+    use crate::decode::DecodedPhoto;
 
     #[test]
     fn a_part_ends_where_the_photo_does() {
         let grey = Grey { width: 4, height: 3, samples: Samples::U16((0..12).map(|k| k << 8).collect()) };
-        let shot = Shot::Photo(Photo { grey, damaged_rows: Vec::new(), page: None });
+        let shot = Shot::Photo(DecodedPhoto { grey, damaged_rows: Vec::new(), page: None });
         let shown = part(&shot, [2, 1], 9);
         assert_eq!((shown.width, shown.height), (2, 2));
         assert_eq!(shown.rgba.iter().step_by(4).copied().collect::<Vec<_>>(), [6, 7, 10, 11]);

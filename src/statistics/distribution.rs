@@ -22,7 +22,7 @@ pub fn critical_w() -> f64 {
     normal_quantile(1.0 - ALPHA / 2.0)
 }
 
-/// What the largest |w| of `count` tests exceeds with the probability `alpha` where nothing is wrong (Z. Šidák 1967).
+/// Critical value that the largest |w| of `count` tests exceeds with the probability `alpha` without gross errors (Z. Šidák 1967).
 pub fn critical_among(count: usize, alpha: f64) -> f64 {
     let one = -((-alpha).ln_1p() / count.max(1) as f64).exp_m1();
     -normal_quantile(one / 2.0)
@@ -60,7 +60,7 @@ pub fn chi_squared_quantile(p: f64, r: usize) -> f64 {
 }
 
 /// Critical value of Student's t with r degrees of freedom at [`ALPHA`], two-sided: of an error that has no part in the
-/// sigma0 it is compared with. None without degrees of freedom.
+/// sigma0 it is compared with. `None` without degrees of freedom.
 pub fn critical_t(r: usize) -> Option<f64> {
     match r {
         0 => None,

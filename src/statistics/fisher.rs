@@ -15,7 +15,8 @@ pub struct Fisher {
     f2: Option<f64>,
 }
 
-/// Terms of a continued fraction: it converges after about √max(a, b) terms, so that these are enough for 10⁸ degrees of freedom.
+/// Maximum number of terms of the continued fraction. It converges after about √max(a, b) terms, so this is enough for 10⁸ degrees of
+/// freedom.
 const TERMS: usize = 20_000;
 
 impl Fisher {
@@ -30,7 +31,7 @@ impl Fisher {
         self.shifted_tails(x, 0.0)
     }
 
-    /// Tails where the numerator has 2 `shift` degrees of freedom more, at the same quotient of the sums of squares.
+    /// Tails of the distribution whose numerator has 2 · `shift` additional degrees of freedom, at the same ratio of the sums of squares.
     fn shifted_tails(&self, x: f64, shift: f64) -> [f64; 2] {
         if !(x > 0.0) {
             return [0.0, 1.0];
@@ -83,7 +84,7 @@ impl Fisher {
         (first..=last).map(term).sum::<f64>().clamp(0.0, 1.0)
     }
 
-    /// The non-centrality with which F' exceeds `limit` with the probability `power`; 0 where F itself does.
+    /// The non-centrality λ for which F' exceeds `limit` with the probability `power`; 0 if the central F exceeds it with that probability.
     pub fn noncentrality(&self, limit: f64, power: f64) -> f64 {
         let power = power.clamp(0.0, 1.0 - 1e-9);
         let difference = |lambda: f64| power - self.power(limit, lambda);
@@ -99,7 +100,8 @@ impl Fisher {
     }
 }
 
-/// The zero of a falling function between `low` and `high`: regula falsi with the Illinois rule, bisection where it stalls.
+/// The zero of a decreasing function between `low` and `high`: regula falsi with the Illinois modification, and bisection in every fifth
+/// round.
 fn root(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (function(low), function(high));
     for round in 0..200 {
@@ -145,19 +147,19 @@ fn beta_tails(a: f64, b: f64, [x, y]: [f64; 2]) -> [f64; 2] {
 /// The continued fraction of the incomplete beta function.
 fn fraction(a: f64, b: f64, x: f64) -> f64 {
     const TINY: f64 = 1e-300;
-    let kept = |value: f64| if value.abs() < TINY { TINY } else { value };
+    let nonzero = |value: f64| if value.abs() < TINY { TINY } else { value };
     let mut c = 1.0;
-    let mut d = 1.0 / kept(1.0 - (a + b) * x / (a + 1.0));
+    let mut d = 1.0 / nonzero(1.0 - (a + b) * x / (a + 1.0));
     let mut h = d;
     for m in 1..TERMS {
         let m = m as f64;
         let even = m * (b - m) * x / ((a - 1.0 + 2.0 * m) * (a + 2.0 * m));
-        d = 1.0 / kept(1.0 + even * d);
-        c = kept(1.0 + even / c);
+        d = 1.0 / nonzero(1.0 + even * d);
+        c = nonzero(1.0 + even / c);
         h *= d * c;
         let odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 1.0 + 2.0 * m));
-        d = 1.0 / kept(1.0 + odd * d);
-        c = kept(1.0 + odd / c);
+        d = 1.0 / nonzero(1.0 + odd * d);
+        c = nonzero(1.0 + odd / c);
         let change = d * c;
         h *= change;
         if (change - 1.0).abs() < 1e-15 {
@@ -174,7 +176,7 @@ mod tests {
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
-    /// Tables of F, one value by Simpson's rule on the density; for infinitely many degrees of freedom χ² over its own.
+    /// Published tables of F, and one value by Simpson's rule on the density; for infinitely many degrees of freedom χ²/f₁.
     #[test]
     fn limits_agree_with_tables() {
         for (upper, f1, f2, expected) in [
@@ -195,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn tails_agree_with_statrs_and_meet_the_infinite_case() {
+    fn tails_agree_with_statrs_and_converge_to_the_infinite_case() {
         use statrs::distribution::{ContinuousCDF, FisherSnedecor};
         for (f1, f2) in [(1, 3.0), (3, 12.0), (6, 40.0), (30, 500.0), (200, 77.0)] {
             let theirs = FisherSnedecor::new(f1 as f64, f2).unwrap();
@@ -227,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn the_noncentral_distribution_is_that_of_draws() {
+    fn the_noncentral_distribution_agrees_with_simulation() {
         let mut noise = Noise::new(5, 0);
         for (f1, f2, lambda) in [(3, 12, 9.0), (6, 30, 4.0), (1, 5, 16.0)] {
             let law = Fisher::new(f1, Some(f64::from(f2)));

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::distribution::noncentrality;
 
-/// Redundancy numbers below this are 0 as far as the numbers can tell: nothing checks the observation, and its residual is
-/// rounding. An error would have to be 4000 standard errors large to be found.
+/// Redundancy numbers below this are treated as 0: no other observation checks this one, and its residual is only rounding. An error of
+/// less than 4000 standard errors could not be detected.
 pub const UNCHECKED: f64 = 1e-6;
 
 /// Reliability of one observation.
@@ -16,9 +16,9 @@ pub const UNCHECKED: f64 = 1e-6;
 pub struct Reliability {
     /// Redundancy number, 0 to 1.
     pub redundancy: f64,
-    /// Baarda's w with the a priori standard error; null where the redundancy number is 0.
+    /// Baarda's w with the a priori standard error; null if the redundancy number is 0.
     pub w: Option<f64>,
-    /// Minimal detectable bias in the units of the observation; null where the redundancy number is 0.
+    /// Minimal detectable bias in the units of the observation; null if the redundancy number is 0.
     pub mdb: Option<f64>,
 }
 

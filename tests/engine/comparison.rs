@@ -5,9 +5,9 @@ use std::ops::Range;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, StatisticsChoice};
 use sightline::comparison::{Alignment, Comparison, CovarianceOf, compare};
-use sightline::network::{Bar, Network, NetworkPoint, Source, Station, simulate};
 use sightline::noise::Noise;
 use sightline::project::{Camera, Datum, DatumKind, Interior, Parameter, Project, Role, Sigma};
+use sightline_plan::network::{Bar, Network, NetworkPoint, Source, Station, simulate};
 
 use crate::support::networks::Uniform;
 

@@ -5,7 +5,6 @@
 mod adjust {
     mod aerial;
     mod behaviour;
-    mod colours;
     mod components;
     mod curved;
     mod damage;
@@ -23,10 +22,12 @@ mod adjust {
     mod reports;
     mod rig;
     mod slips;
+    mod unmodelled;
 }
 
 /// Whether a calibration is good.
 mod calibration {
+    mod coverage;
     mod cross;
     mod models;
     mod patterns;
@@ -67,7 +68,7 @@ mod exchange {
     mod tables;
 }
 
-/// What the papers state.
+/// Values of the papers.
 mod experiments {
     mod published;
 }
@@ -78,6 +79,7 @@ mod monitoring {
     mod projects;
     mod properties;
     mod published;
+    mod shared;
     mod simulated;
 }
 
@@ -96,7 +98,7 @@ mod orient {
     mod seeded;
 }
 
-/// What plans promise and which are recommended.
+/// Predictions of plans, and recommended plans.
 mod plan {
     mod planning;
     mod search;
@@ -125,7 +127,7 @@ mod sheets {
 /// The adjustment for those who learn.
 mod teaching;
 
-/// What several tests share; benches and fuzz targets use some of it.
+/// Shared by several tests; benches and fuzz targets use some of it.
 mod support {
     pub mod boards;
     pub mod camera_model;

@@ -6,7 +6,8 @@ use sightline::detection::{Codes, DetectOptions};
 use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded};
 use sightline::orient::orient;
 use sightline::project::{Parameter, Point, Project};
-use sightline::{decode, detect, sample};
+use sightline::{decode, detect};
+use sightline_lab::sample;
 
 fn add(project: &mut Project, points: Vec<Point>) {
     let new = points.into_iter().filter(|p| project.points.iter().all(|known| known.id != p.id));

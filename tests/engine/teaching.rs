@@ -1,11 +1,12 @@
 //! What is shown of an adjustment to those who learn, against the adjustment itself and against dense algebra.
 
 use nalgebra::{DMatrix, DVector};
-use sightline::adjust::{Adjuster, adjust, linearise, start_adjustment};
+use sightline::adjust::{Adjuster, Unknown, adjust, at_end, linearise, start_adjustment};
 use sightline::adjustment::AdjustOptions;
 use sightline::project::DatumKind;
-use sightline::teaching::{
-    Lesson, Planting, biases, cofactors, datums, evaluate, explain, files, lab, lessons, moved, plant,
+use sightline_lab::teaching::{
+    Lesson, LessonProgress, Planting, Reached, biases, cofactors, datums, evaluate, explain, files, lab, lessons,
+    moved, plant, sigmas, transformed,
 };
 
 fn options() -> AdjustOptions {
@@ -41,6 +42,26 @@ fn adds_up(adjuster: &Adjuster) {
         for one in found.derivatives {
             let size = system.a.dense().column(one.unknown).amax();
             assert!((one.analytic - one.numerical.expect("of an image coordinate")).abs() < 2e-6 * size);
+        }
+    }
+}
+
+#[test]
+fn standard_errors_of_the_unknowns_are_those_of_the_adjustment() {
+    for kind in [DatumKind::Control, DatumKind::Free] {
+        let mut project = lab().expect("the lab net");
+        project.datum.kind = kind;
+        let adjustment = adjust(&project, &options(), &mut |_| true).expect("a result");
+        let end = at_end(&project, &options()).expect("an end");
+        let found = sigmas(&end).expect("a system").expect("a small network");
+        let unknowns = end.linear_system().expect("a system").unknowns;
+        for point in &adjustment.points {
+            for (axis, own) in ["X", "Y", "Z"].into_iter().zip(point.sigma.expect("a standard error")) {
+                let name = format!("{} {axis}", point.id);
+                let of_point = |one: &Unknown| one.point.as_ref() == Some(&point.id) && one.name == name;
+                let k = unknowns.iter().position(of_point).expect("an unknown");
+                assert!((found[k] / own - 1.0).abs() < 1e-6, "{name}: {} {own}", found[k]);
+            }
         }
     }
 }
@@ -86,6 +107,28 @@ fn datums_differ_in_their_ellipses_and_not_in_their_residuals() {
     assert!(free.trace < minimal.trace && of(DatumKind::Control).weighted_squares > free.weighted_squares);
     assert_eq!(found.motions.len(), 7);
     assert!(found.motions.iter().all(|motion| motion.seen < 1e-7));
+}
+
+#[test]
+fn s_transformed_covariances_are_those_of_the_adjustment_under_the_other_datum() {
+    use DatumKind::{Control, Free, Minimal};
+    let project = lab().expect("the lab net");
+    let held = ["2", "8", "11"].map(str::to_owned);
+    for held in [None, Some(&held[..])] {
+        for pair in [[Minimal, Free], [Free, Minimal]] {
+            let found = transformed(&project, &options(), held, pair).expect("a result").expect("a small network");
+            assert_eq!(found.points.len(), project.points.len());
+            assert!(found.apart < 1e-9, "{pair:?}: {}", found.apart);
+            // The datums differ, or there was nothing to transform.
+            let changed = found.points.iter().map(|point| (point.before[0] / point.transformed[0] - 1.0).abs());
+            assert!(changed.fold(0.0, f64::max) > 0.1);
+        }
+    }
+    // Control adds observations, and its precision is not that of a free network.
+    let found = transformed(&project, &options(), None, [Control, Free]).expect("a result").expect("a small network");
+    assert!(found.apart > 1e-3);
+    assert_eq!(transformed(&project, &options(), None, [Free, Control]), Ok(None));
+    assert_eq!(transformed(&project, &options(), None, [Free, Free]), Ok(None));
 }
 
 #[test]
@@ -178,4 +221,17 @@ fn damaged_lessons_are_refused_with_a_reason() {
     assert!(changed("\"tolerance\"", "\"tolerence\"").contains("tolerence"));
     assert!(changed(",\"tolerance\":0.0", "").contains("step 1"));
     assert!(Lesson::read("").is_err());
+}
+
+#[test]
+fn progress_comes_back_from_its_file() {
+    let reached = Reached { step: 2, right: [0, 1].into() };
+    let progress = LessonProgress::new(Some("datum".to_owned()), [("datum".to_owned(), reached)].into());
+    let text = progress.text();
+    assert_eq!(LessonProgress::read(&text), Some(Ok(progress)));
+    // Lessons and other files are of another format.
+    assert_eq!(LessonProgress::read(r#"{"format": "sightline-lesson"}"#), None);
+    assert_eq!(LessonProgress::read("no JSON"), None);
+    assert!(LessonProgress::read(&text.replace("\"version\": 1", "\"version\": 2")).is_some_and(|read| read.is_err()));
+    assert!(LessonProgress::read(&text.replace("\"step\": 2", "\"step\": -1")).is_some_and(|read| read.is_err()));
 }

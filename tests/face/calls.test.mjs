@@ -8,7 +8,7 @@ import { document, sightline } from './engine.mjs';
 const CALLS = Number(process.env.SIGHTLINE_CALLS ?? 20_000);
 /** No call takes longer. */
 const LONGEST_MS = 10_000;
-/** What memory may grow by after the first tenth of all calls, by when every function has had its share. */
+/** Maximum growth of memory after the first tenth of all calls, by when every function has been called. */
 const GROWTH = 64 << 20;
 
 let state = Number(process.env.SIGHTLINE_SEED ?? 7);
@@ -67,16 +67,6 @@ const paper = () => ({
   stations: [0, 1, 2].map((k) => ({ id: `s${k}`, camera: 'c', position: [2 * Math.cos(1.6 * k), 2 * Math.sin(1.6 * k), 3], look_at: [0, 0, 0], roll: 1.5 * k })),
   points: Array.from({ length: 6 }, (_, k) => ({ id: `p${k}`, xyz: [(k % 3) * 0.6 - 0.6, Math.floor(k / 3) * 0.6, 0.1 * (k % 2)], normal: [0, 0, 1], diameter: 0.2, role: k === 0 ? 'control' : 'tie', sigma: k ? null : [0.01, 0.01, 0.01] })),
   distances: [{ from: 'p0', to: 'p5', sigma: 0.001 }],
-});
-
-/** Colours of a photo of 1000 x 800 pixels, measured apart. */
-const apart = () => ({
-  centre: [500, 400],
-  corner: 640,
-  colours: [{
-    colour: 'red', shifts: [],
-    lateral: { shift_u: 0.1, shift_v: -0.05, linear: 0.8, cubic: -0.3, at_corner: 0.5, sigma_at_corner: 0.02, rms: 0.02, sigma0: 1, targets: 30, covariance: [1e-4, 0, 0, 0, 1e-4, 0, 0, 2e-4, 0, 2e-4] },
-  }],
 });
 
 const plate =
@@ -148,7 +138,6 @@ function calls() {
     simulate: [[paper()], 5],
     renderPhoto: [[paper(), 's0'], 2],
     coloursApart: [[bmp, {}], 4],
-    colourDifferences: [[project.cameras[0], [apart()]], 10],
     reduceFilm: [[{ 'plate.txt': new TextEncoder().encode(plate) }], 20],
     experimentCsv: [[film], 2],
     runExperiment: [['film', {}], 0.1],

@@ -17,7 +17,7 @@ export const skip = hasData ? false : 'skipped, no data';
 export const dataPath = (path) => join(folder, path);
 export const data = (path) => readFileSync(dataPath(path));
 
-/** What a function throws; a trap is no error of the engine. */
+/** Returns the error that a function throws; a trap of the module is not an error of the engine. */
 export function thrown(action) {
   try {
     action();

@@ -1,10 +1,10 @@
-// The three papers from JavaScript: the figures they are held to, their progress, their CSV files.
+// The experiments of the three papers from JavaScript: expected figures, progress, CSV files.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { sightline, thrown } from './engine.mjs';
 
-/** Runs one; what it returns is plain, finite and complete, and its project can be adjusted as it stands. */
+/** Runs an experiment and checks that its result is plain, finite and complete, and that its project can be adjusted. */
 function run(name, options) {
   const began = performance.now();
   let steps = 0;
@@ -20,7 +20,7 @@ function run(name, options) {
   for (const { series } of result.charts) assert.ok(series.every((line) => line.points.flat().every(Number.isFinite)));
   assert.ok(result.figures.every((figure) => Number.isFinite(figure.ours)));
   assert.equal(sightline.adjust(result.project, { statistics: 'none' }).termination, 'converged');
-  // Of the modules that are handed out; those of the daily tests are slower. The page's test holds the ten seconds.
+  // Only for release modules: those of the daily tests are slower. The limit of ten seconds is in the test of the page.
   if (process.env.SIGHTLINE_EXTENT === 'all') assert.ok(seconds < 30, `${name} took ${seconds} s`);
   return result;
 }
@@ -32,7 +32,7 @@ const figure = (result, id) => {
 };
 const near = (ours, expected, tolerance, what) => assert.ok(Math.abs(ours - expected) <= tolerance, `${what}: ${ours} and not ${expected}`);
 
-test('Kang and Yeu: falls, counts, Monte Carlo', () => {
+test('Kang and Yeu: decrease of errors, numbers of observations, Monte Carlo', () => {
   const kang = run('kang');
   const independent = {
     'base_0.3/1.4': 25.6, 'base_0.4/1.4': 38.8, 'qx/1.4-5A': 38.2, 'qy/1.4-5A': 44.8, 'qz/1.4-5A': 42.8, 'm0/2.5-3A': 10.3, 'm0/2.5-4A': 43.1, 'm0/2.5-5A': 47.4,
@@ -57,7 +57,7 @@ test('Kang and Yeu: falls, counts, Monte Carlo', () => {
   assert.deepEqual([rows('single'), rows('mixed')], [60, 16]);
 });
 
-test('film: an affine transformation follows the film, a similarity does not', () => {
+test('film: an affine transformation models the shrinkage of the film, a similarity does not', () => {
   const film = run('film');
   assert.ok(figure(film, 'marks_sigma0/similarity').ours > 3 * figure(film, 'marks_sigma0/affine').ours);
   near(figure(film, 'sigma0/affine-corrected').ours, 1, 0.16, 'sigma0');
@@ -109,7 +109,7 @@ test('plates go from readings to coordinates', () => {
   assert.deepEqual([error.code, error.where.file, error.where.line, error.where.field], ['invalid', 'readings.csv', 1, 'x']);
 });
 
-test('options change what they name, and the same options give the same bits', () => {
+test('options have their effect, and equal options give identical results', () => {
   const [a, b] = [1, 1].map(() => JSON.stringify(sightline.runExperiment('film')));
   assert.equal(a, b);
   const wanted = sightline.runExperiment('lee-structure', { network: 'II-control', image_sigma_um: 1 });
@@ -118,7 +118,7 @@ test('options change what they name, and the same options give the same bits', (
   assert.ok(third < 0.6, `${third}`);
 });
 
-test('progress stops, faults are errors, CSV holds every figure with every digit', () => {
+test('progress can cancel, invalid options are errors, CSV has every figure with all digits', () => {
   assert.equal(thrown(() => sightline.runExperiment('kang', { on_progress: (done) => done < 3 })).code, 'cancelled');
   assert.equal(thrown(() => sightline.runExperiment('nobody')).code, 'unknown');
   assert.equal(thrown(() => sightline.runExperiment('kang', { image_sigma_um: -1 })).where.field, 'image_sigma_um');

@@ -11,7 +11,7 @@ import { compare } from './compare.mjs';
 import { dataPath, sightline, skip } from './engine.mjs';
 import { tiff } from './tiff.mjs';
 
-/** What an example of the engine, built by `cargo xtask test face`, makes of a file. */
+/** Output of an example program, built by `cargo xtask test face`, for a file. */
 function natively(example, file, options) {
   const folder = process.env.SIGHTLINE_EXAMPLES;
   if (!folder) throw new Error('run these tests with: cargo xtask test face');

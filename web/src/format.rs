@@ -1,9 +1,9 @@
 //! Numbers as people read and type them. How they are shown is the engine's, the same as in the report.
 
-use sightline::exchange::control_csv::{Sign, decimal_readings, sign_of, without_thousands};
 use sightline::project::LARGEST;
-use sightline::report::number::{GROUP, MINUS};
-pub use sightline::report::number::{
+use sightline_exchange::control_csv::{Sign, decimal_readings, sign_of, without_thousands};
+use sightline_report::number::{GROUP, MINUS};
+pub use sightline_report::number::{
     compact, count, decimals_for, decimals_of, factor, fixed, maybe, power, round, round_below, three_digits,
     with_sigma,
 };
@@ -18,7 +18,7 @@ pub fn editable(value: f64) -> String {
     if short.len() > 14 { format!("{value:.6e}") } else { short }
 }
 
-/// What somebody typed with an ordinary minus and without blanks, and whether blanks separated its thousands.
+/// The typed text with an ordinary minus and without blanks, and whether blanks separated thousands.
 fn bare(text: &str) -> (String, bool) {
     let text = text.trim().replace(MINUS, "-");
     let plain = text.replace([GROUP, ' ', '\u{a0}', '\u{202f}'], "");
@@ -26,7 +26,7 @@ fn bare(text: &str) -> (String, bool) {
     (plain, grouped)
 }
 
-/// A number that somebody typed, with either decimal sign and either minus. One that can be read in two ways ("1,234") is none: see
+/// A typed number, with either decimal sign and either minus. One that can be read in two ways ("1,234") is none: see
 /// [`ambiguous`]. Thousands separators are taken where they leave one reading ("1,234.5", "1.234,5", "1,234,567").
 pub fn parse(text: &str) -> Option<f64> {
     if ambiguous(text).is_some() {
@@ -63,7 +63,7 @@ pub fn parse(text: &str) -> Option<f64> {
     written.parse::<f64>().ok().filter(|v| v.abs() < LARGEST)
 }
 
-/// The two readings of a number with one comma before exactly three digits, that of a decimal comma first; none where only one
+/// The two readings of a number with one comma before exactly three digits, that of a decimal comma first; `None` if only one
 /// is possible.
 pub fn ambiguous(text: &str) -> Option<[String; 2]> {
     let (plain, grouped) = bare(text);

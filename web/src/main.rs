@@ -1,6 +1,7 @@
 //! The page's own module: the document, the results and the interface. The engine works in the workers ([`sightline_protocol`]).
 
 mod browser;
+mod document;
 mod edit;
 mod format;
 mod i18n;

@@ -62,7 +62,7 @@ export async function database(life) {
     hasJournal: async (id) => (await run('frames', (frames) => settled(frames.getKey(range(id))))) !== undefined,
     size: (id) => run('frames', async (frames) => (await settled(frames.getAll(range(id)))).reduce((sum, frame) => sum + frame.length, 0)),
     /**
-     * Makes this worker the one that writes a project; false where another does that lives. By force where a lock is held, or the person
+     * Makes this worker the one that writes a project; false if another does that lives. By force where a lock is held, or the person
      * wants it: the other finds that out in the transaction of what it would write next.
      */
     async claim(id, force) {

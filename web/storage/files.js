@@ -7,7 +7,7 @@ const PHOTOS = 'sightline photos';
 
 /** Tries again while another holder of a file goes away: that of a killed page is there for a moment. */
 const patiently = (work) => again(work, 'NoModificationAllowedError');
-/** Tries again while another window writes into the file that is read: what was looked at before is refused then. */
+/** Tries again while another window writes into the file that is read: what was examined before is refused then. */
 const undisturbed = (work) => again(work, 'NotReadableError');
 
 async function again(work, name) {
@@ -117,13 +117,13 @@ export async function fileSystem() {
           if (read.frames.length > 0) return journalOf(generation, all[0], read, read.end);
           damaged ||= read.damaged;
         }
-        // A new one that was being written when it was looked at may be whole by now, and those before it gone.
+        // A new one that was being written when it was examined may be whole by now, and those before it gone.
         const now = await generations(folder);
         if (now.join() === all.join()) throw damaged ? fault('DamagedError', 'no frame is whole') : fault('NotFoundError', 'no journal');
         all = now;
       }
     },
-    /** What was appended since a journal was read to its end. */
+    /** Entries appended to a journal since it was read. */
     async since(id, generation, end) {
       const folder = await projects.getDirectoryHandle(id);
       return undisturbed(async () => {

@@ -1,7 +1,7 @@
 // Frames: what a journal is made of. A frame is a length, a checksum (CRC-32) and a JSON array of items.
 //
 // A journal that was being written when everything stopped ends with the beginning of a frame: that is a cut end, and no damage. Anything
-// else that is not a whole frame is damage. A frame in which one bit has changed is mended: the difference of the two checksums says which.
+// else that is not a whole frame is damage. A frame in which one bit has changed is mended: the difference of the two checksums shows which.
 // Beyond damage that cannot be mended the next whole frame is looked for.
 
 const TABLE = Int32Array.from({ length: 256 }, (_, n) => {

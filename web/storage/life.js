@@ -17,7 +17,7 @@ export const live = (name) =>
     const lock = () => (navigator.locks ? navigator.locks.request(name, () => (done('lock'), new Promise(() => {}))).catch(() => done(null)) : done(null));
     try {
       const opening = indexedDB.open(name);
-      // No listener for `versionchange`: the connection stays open when somebody waits for its end.
+      // No listener for `versionchange`: the connection stays open when another connection waits for its end.
       opening.onsuccess = () => {
         self.sightlineLife = opening.result;
         done('database');

@@ -55,7 +55,7 @@ export function words(draw, { scene, options, order, quick, screen, camera, perP
     draw.font = `${bold ? 600 : 400} 11px ${family}`;
     const w = draw.measureText(text).width;
     if (x + w < 0 || x > width || y < 0 || y - 12 > height) return true;
-    // What stands at the edge is not cut.
+    // Objects at the edge are not cut.
     x = Math.max(3, Math.min(x, width - w - 3));
     if (!must && (covers(x - 2, y - 11, w + 4, 14) || !free(x - 2, y - 11, w + 4, 14))) return false;
     draw.lineWidth = 3;
@@ -75,7 +75,7 @@ export function words(draw, { scene, options, order, quick, screen, camera, perP
     draw.arc(place[0], place[1], radius, 0, 2 * Math.PI);
     draw.stroke();
   };
-  // The room of what stands fast comes first, then what is chosen, forms, photos, and the points.
+  // Fixed objects get their place first, then the selection, forms, photos, and points.
   free(0, height - 96, 110, 96);
   free(width - 190, height - 40, 190, 40);
   if (!quick && scene.points.length / 3 <= MOST_FREE) {

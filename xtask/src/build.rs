@@ -102,7 +102,7 @@ const EXPORTS: (&str, &str) = (
     "./package.json": "./package.json"
   }"#,
 );
-/// What Node imports by the package's name: the engine, started.
+/// Entry module of the package for Node: it loads and starts the engine.
 const NODE: &str = "\
 // In Node the module is read from beside this file, at once.
 import { readFileSync } from 'node:fs';
@@ -205,31 +205,32 @@ fn modules(profile: Profile, packages: &[&str]) -> Outcome {
     let [name, _] = profile.names();
     let mut arguments = vec!["build", "--profile", name, "--target", TARGET];
     arguments.extend(packages.iter().flat_map(|package| ["--package", package]));
-    // What is handed out does not name folders of who built it; cargo puts these flags behind those of its configuration.
-    let short = format!("target.{TARGET}.rustflags = {:?}", remapped());
-    if profile == Profile::Release {
-        arguments.extend(["--config", &short]);
-    }
+    // Released files must not contain folder names of the build machine; cargo appends these flags to those of its configuration.
+    let short = match profile {
+        Profile::Release => Some(format!("target.{TARGET}.rustflags = {:?}", remapped()?)),
+        _ => None,
+    };
+    arguments.extend(short.iter().flat_map(|flags| ["--config", flags.as_str()]));
     run(&mut cargo(&arguments))
 }
 
-/// Folders of this machine that a module would name where it can panic: the repository, and cargo's.
-pub fn folders() -> Vec<PathBuf> {
+/// Folders of this machine that a module would name where it can panic, with the name that stands for each: the repository, cargo's, and the
+/// sources of the standard library where the toolchain has them (its generic functions are compiled here, with their paths).
+pub fn folders() -> Outcome<Vec<(PathBuf, &'static str)>> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cargo")));
-    home.into_iter().chain([root()]).collect()
+    let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
+    let library = Path::new(sysroot.trim()).join("lib/rustlib/src/rust");
+    Ok(home.map(|home| (home, "cargo")).into_iter().chain([(root(), "."), (library, "/rustc")]).collect())
 }
 
 /// Flags of the compiler that name them otherwise.
-fn remapped() -> Vec<String> {
-    folders()
-        .iter()
-        .zip(["cargo", "."])
-        .map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display()))
-        .collect()
+fn remapped() -> Outcome<Vec<String>> {
+    let folders = folders()?;
+    Ok(folders.iter().map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect())
 }
 
-/// What cargo knows of the workspace on this machine and as wasm, from the lock file; offline where all is downloaded.
+/// Metadata of the workspace for this machine and for wasm, from the lock file; offline if everything is downloaded.
 pub fn metadata() -> Outcome<Value> {
     let text = metadata_of(&[&host()?, TARGET])?;
     serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
@@ -242,7 +243,7 @@ pub fn metadata_of(targets: &[&str]) -> Outcome<String> {
     known_offline(&arguments)
 }
 
-/// Packages that are built in several versions on this machine or as wasm, a line each; some with one version stand there too.
+/// Packages that are built in several versions on this machine or as wasm, a line each; some with one version are listed too.
 pub fn duplicates() -> Outcome<String> {
     let host = host()?;
     let platforms = ["--target", &host, "--target", TARGET];
@@ -257,7 +258,7 @@ fn host() -> Outcome<String> {
     Ok(host.ok_or("rustc -vV names no host")?.to_owned())
 }
 
-/// What cargo says, offline where all is downloaded.
+/// Output of cargo, offline if everything is downloaded.
 fn known_offline(arguments: &[&str]) -> Outcome<String> {
     let offline = cargo(arguments)
         .arg("--offline")
@@ -271,11 +272,19 @@ fn known_offline(arguments: &[&str]) -> Outcome<String> {
     }
 }
 
-/// What native builds are asked for: always the same packages, since cargo compiles a crate anew for other features, and those
+/// Packages of native builds: always the same, since cargo compiles a crate anew for other features, and those
 /// follow from the packages that are asked for.
-pub const NATIVE: [&str; 8] = [
+pub const NATIVE: [&str; 16] = [
     "--package",
     "sightline",
+    "--package",
+    "sightline-exchange",
+    "--package",
+    "sightline-plan",
+    "--package",
+    "sightline-report",
+    "--package",
+    "sightline-lab",
     "--package",
     "sightline-codecs",
     "--package",
@@ -283,6 +292,9 @@ pub const NATIVE: [&str; 8] = [
     "--package",
     "sightline-protocol",
 ];
+
+/// How many of [`NATIVE`], from the first, are the engine and the crates above it: their unit tests run as wasm every day.
+pub const ENGINE: usize = 10;
 
 /// The targets of [`NATIVE`] that test the engine from outside.
 pub const FROM_OUTSIDE: [&str; 2] = ["--test", "*"];
@@ -318,7 +330,7 @@ fn links_no_engine() -> Outcome {
         "9sightline6adjust9equations",
         "9sightline6orient5block",
         "9sightline7initial",
-        "9sightline8exchange7package",
+        "18sightline_exchange7package",
         "9zune_jpeg",
         "8flashraw",
         "heifer_hevc_dec",

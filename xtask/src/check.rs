@@ -3,6 +3,8 @@
 mod dependencies;
 mod invariants;
 mod licences;
+mod modules;
+mod names;
 mod order;
 
 use crate::Outcome;

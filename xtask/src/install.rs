@@ -82,7 +82,7 @@ pub fn chromium() -> Outcome<String> {
     installed().ok_or_else(|| advice.into())
 }
 
-/// What reads printed pages (pdftotext, pdftoppm), where Debian's can be installed; the tests of sheets and of the printed report
+/// Programs that read printed pages (pdftotext, pdftoppm), if Debian's can be installed; the tests of sheets and of the printed report
 /// are skipped by name without it.
 pub fn poppler() {
     if !exists("pdftotext") && exists("apt-get") {

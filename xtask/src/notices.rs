@@ -37,7 +37,7 @@ pub fn write_to(folder: &Path) -> Outcome {
     write(&folder.join(NAME), text()?.as_bytes())
 }
 
-/// What the file depends on.
+/// Inputs of the file.
 pub fn sources() -> Vec<PathBuf> {
     let mut all = vec![root().join("Cargo.lock"), root().join(BUNDLED).join("package-lock.json")];
     all.extend(scripts().unwrap_or_default());

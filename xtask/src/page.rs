@@ -20,7 +20,7 @@ pub const CODECS: &str = "sightline-codecs";
 
 /// The page's own HTML in dist/.
 const PAGE: &str = "index.html";
-/// What stands in the page for the folder of its build, until that has a name.
+/// Placeholder in the page for the folder of its build.
 const BUILD: &str = "@build/";
 /// What lies beside the page and not in the folder of its build: browsers and systems know it by its name, or it has to come where the rest of
 /// the build does not.
@@ -78,7 +78,7 @@ struct Asset {
     kind: Option<String>,
 }
 
-/// The page with every tag that carries `data-trunk` replaced by what `link` gives for it.
+/// The page with every tag that has `data-trunk` replaced by what `link` gives for it.
 fn resolve(source: &str, link: &mut dyn FnMut(&Asset) -> Outcome<String>) -> Outcome<String> {
     let mut page = String::new();
     let mut rest = source;

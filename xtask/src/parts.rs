@@ -14,7 +14,7 @@ pub struct Parts {
     pub module: &'static str,
     /// Glue of the parts that come later, in dist/.
     pub glue: &'static str,
-    /// What their names begin with.
+    /// Prefix of their names.
     prefix: &'static str,
 }
 

@@ -30,7 +30,7 @@ pub fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
-/// Runs it and asks for success.
+/// Runs it and checks for success.
 pub fn run(command: &mut Command) -> Outcome {
     let name = describe(command);
     let status = command.status().map_err(|error| format!("{name}: {error}"))?;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
 
 use crate::build::{self, Products, Profile, write};
 use crate::page::copy_folder;
@@ -11,7 +10,7 @@ use crate::{Outcome, notices, offline, single};
 
 /// The list of digests, as `sha256sum --check` reads it.
 const SUMS: &str = "SHA256SUMS";
-/// Most bytes of the page as one file.
+/// Maximum number of bytes of the page as one file.
 const SINGLE_MB: usize = 8;
 
 /// Builds everything and leaves it in `release/sightline-VERSION`.
@@ -34,7 +33,7 @@ pub fn command() -> Outcome {
     }
     let mut files = BTreeMap::new();
     offline::list(&folder, "", &mut files)?;
-    let named = builders_paths(&files);
+    let named = builders_paths(&files)?;
     if !named.is_empty() {
         return Err(format!("paths of this machine are in what would be handed out: {}", named.join(", ")));
     }
@@ -59,11 +58,11 @@ fn sums(files: &BTreeMap<String, Vec<u8>>) -> String {
     files.iter().map(|(name, bytes)| format!("{}  {name}\n", offline::hex(bytes))).collect()
 }
 
-/// Files that name a folder of the machine that built them: where the repository lies, or cargo's own folder.
-fn builders_paths(files: &BTreeMap<String, Vec<u8>>) -> Vec<String> {
-    let folders: Vec<String> = build::folders().iter().map(|path: &PathBuf| path.display().to_string()).collect();
+/// Files that name a folder of the machine that built them: where the repository lies, cargo's own folder, or that of the standard library.
+fn builders_paths(files: &BTreeMap<String, Vec<u8>>) -> Outcome<Vec<String>> {
+    let folders: Vec<String> = build::folders()?.iter().map(|(path, _)| path.display().to_string()).collect();
     let names = |bytes: &[u8]| folders.iter().any(|folder| contains(bytes, folder.as_bytes()));
-    files.iter().filter(|(_, bytes)| names(bytes)).map(|(name, _)| name.clone()).collect()
+    Ok(files.iter().filter(|(_, bytes)| names(bytes)).map(|(name, _)| name.clone()).collect())
 }
 
 fn contains(bytes: &[u8], part: &[u8]) -> bool {
@@ -105,8 +104,16 @@ mod tests {
     #[test]
     fn a_path_of_this_machine_is_found() {
         let own = format!("x{}/src/a.rs", root().display());
-        let files =
-            BTreeMap::from([("a".to_owned(), own.into_bytes()), ("b".to_owned(), b"/rustc/abc/library".to_vec())]);
-        assert_eq!(builders_paths(&files), ["a"]);
+        let library = build::folders()
+            .expect("rustc")
+            .iter()
+            .map(|(path, _)| format!("{}/library/core", path.display()))
+            .next_back();
+        let files = BTreeMap::from([
+            ("a".to_owned(), own.into_bytes()),
+            ("b".to_owned(), b"/rustc/abc/library".to_vec()),
+            ("c".to_owned(), library.expect("three folders").into_bytes()),
+        ]);
+        assert_eq!(builders_paths(&files), Ok(vec!["a".to_owned(), "c".to_owned()]));
     }
 }

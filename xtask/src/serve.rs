@@ -1,4 +1,4 @@
-//! A server of one folder on loopback, for the page while it is built and tested.
+//! A server of one folder on the loopback address, for developing and testing the page.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -39,7 +39,7 @@ pub fn command(arguments: &[String]) -> Outcome {
     Ok(())
 }
 
-/// Serves a folder in the background until the process ends; its address.
+/// Serves a folder in the background until the process ends. Returns the address.
 pub fn background(folder: PathBuf) -> Outcome<String> {
     let listener = listen(0)?;
     let address = address(&listener)?;
@@ -55,21 +55,21 @@ fn address(listener: &TcpListener) -> Outcome<String> {
     listener.local_addr().map(|address| format!("http://{address}/")).map_err(|error| error.to_string())
 }
 
-/// Answers until the process ends. Every connection has a thread of its own and gives one answer: a browser opens connections
-/// ahead and leaves them idle, and none may wait for another. Who asks for `decoders` that are still being built waits for them.
+/// Answers requests until the process ends. Each connection has its own thread and one request: browsers open connections in advance
+/// and leave them idle, and an idle one must not block another. Requests for the decoders wait until `decoders` is set.
 fn answer(listener: TcpListener, folder: &Path, decoders: Option<&OnceLock<()>>) {
     std::thread::scope(|threads| {
         for stream in listener.incoming().flatten() {
-            // Fails where the browser has gone, which then needs no answer.
+            // Fails if the browser has closed the connection: then no answer is needed.
             threads.spawn(move || respond(stream, folder, decoders).ok());
         }
     });
 }
 
-/// Largest head of a request.
+/// Maximum length of a request's header in bytes.
 const LONGEST_HEAD: u64 = 64 << 10;
 
-/// Reads the head of a request, which is all that a GET has, and sends the file it asks for.
+/// Reads the header of a request and sends the requested file. A GET request has no body.
 fn respond(stream: TcpStream, folder: &Path, decoders: Option<&OnceLock<()>>) -> std::io::Result<()> {
     let mut head = Vec::new();
     let mut reader = BufReader::new(stream.try_clone()?.take(LONGEST_HEAD));
@@ -93,7 +93,7 @@ fn respond(stream: TcpStream, folder: &Path, decoders: Option<&OnceLock<()>>) ->
             std::io::copy(&mut file, &mut stream)?;
         }
         None => {
-            let body = b"not here";
+            let body = b"not found";
             write_head(&mut stream, "404 Not Found", "text/plain", body.len() as u64)?;
             stream.write_all(body)?;
         }
@@ -106,12 +106,13 @@ fn write_head(stream: &mut TcpStream, status: &str, kind: &str, length: u64) -> 
     write!(stream, "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\n{headers}\r\n\r\n")
 }
 
-/// The file of an address with its kind; none outside the folder. A folder's file is its index.html.
+/// The file at an address and its MIME type; `None` if it does not exist or is outside the folder. A folder's address gives its
+/// index.html.
 fn file(folder: &Path, address: &str) -> Option<(File, &'static str)> {
     let path = address.split(['?', '#']).next().unwrap_or_default();
     let mut place = folder.to_path_buf();
     for part in decoded(path)?.split('/').filter(|part| !part.is_empty()) {
-        // Names only: nothing that leads upwards or, on other systems, to another drive.
+        // Plain names only: no "..", and on Windows no drive.
         let mut components = Path::new(part).components();
         match (components.next(), components.next()) {
             (Some(Component::Normal(name)), None) => place.push(name),
@@ -135,7 +136,7 @@ fn file(folder: &Path, address: &str) -> Option<(File, &'static str)> {
     Some((File::open(place).ok()?, kind))
 }
 
-/// "%20" and the like resolved; none where that is not UTF-8.
+/// The path with "%20" and the like decoded; `None` if the result is not UTF-8.
 fn decoded(path: &str) -> Option<String> {
     let mut bytes = Vec::new();
     let mut rest = path.as_bytes();
@@ -162,7 +163,7 @@ mod tests {
     use super::*;
     use crate::process::root;
 
-    /// What the server answers to a request.
+    /// Answer of the server to a request.
     fn ask(stream: &mut TcpStream, path: &str) -> std::io::Result<String> {
         write!(stream, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n")?;
         stream.set_read_timeout(Some(Duration::from_secs(10)))?;

@@ -209,7 +209,7 @@ fn inlined(glue: &str) -> Outcome<String> {
     }
     let lines = glue.lines().filter(|line| !line.starts_with("export {"));
     let plain = lines.map(|line| line.strip_prefix("export ").unwrap_or(line)).collect::<Vec<_>>().join("\n");
-    // Known to modules only; it is asked for where nobody says where the wasm lies.
+    // Only available in modules; used if the caller does not give the location of the wasm.
     Ok(plain.replace("import.meta.url", "location.href"))
 }
 

@@ -22,7 +22,7 @@ struct Count {
 /// How far the tests go.
 #[derive(Clone, Copy, PartialEq)]
 enum Extent {
-    /// What every change is asked, on modules that are compiled fast: a part of the seeded cases, the engine's unit tests as wasm only.
+    /// Daily extent for every change, on modules that are compiled fast: a part of the seeded cases, the engine's unit tests as wasm only.
     Daily,
     /// Everything, on the modules that are handed out.
     All,
@@ -88,7 +88,7 @@ pub fn command(arguments: &[String]) -> Outcome {
         let second = wanted("native").then(|| {
             threads.spawn(|| {
                 if ["face", "types", "page"].into_iter().any(wanted) {
-                    // Whoever needs them tells of a failure.
+                    // Tests that need them report a failure.
                     let _ = all.build();
                 }
                 let mut out = Vec::new();
@@ -137,7 +137,7 @@ fn native(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
     } else {
         tests(&[&build::NATIVE[..], &build::FROM_OUTSIDE].concat(), &[])?;
         // Without the engine's own, which run as wasm.
-        tests(&[&build::NATIVE[2..], &["--lib", "--bins"]].concat(), &[])?;
+        tests(&[&build::NATIVE[build::ENGINE..], &["--lib", "--bins"]].concat(), &[])?;
     }
     // By itself, as it was built to run this.
     tests(&["--package", "xtask"], &[])?;
@@ -153,8 +153,9 @@ fn wasm(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
     install::target()?;
     install::node()?;
     // Asked for together with the page's modules, so that dependencies have the features that those have, and are compiled once.
-    let packages = ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-worker"];
-    counted(out, cargo(&["test", "--target", TARGET, "--lib", "--no-fail-fast"]).args(packages), rust_count)
+    let others = ["--package", "sightline-desk", "--package", "sightline-worker"];
+    let mut command = cargo(&["test", "--target", TARGET, "--lib", "--no-fail-fast"]);
+    counted(out, command.args(&build::NATIVE[..build::ENGINE]).args(others), rust_count)
 }
 
 fn face(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
@@ -256,7 +257,7 @@ const ONLY_ALL: [&str; 2] = ["browsers.test.mjs", "parts.test.mjs"];
 /// Tests that measure how long something takes, or need all of the machine: none runs beside them.
 const ALONE: [&str; 4] = ["calls.test.mjs", "experiments.test.mjs", "kills.test.mjs", "stopping.test.mjs"];
 
-/// The `*.test.mjs` of a folder under Node's own test runner, two files at a time where they bear it.
+/// The `*.test.mjs` of a folder under Node's own test runner, two files at a time where they do not disturb each other.
 fn node_tests(folder: &str, all: &Run, out: &mut dyn Write, variables: &[(&str, &str)]) -> Outcome<Count> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(root().join(folder)).map_err(|error| format!("{folder}: {error}"))? {

@@ -14,9 +14,9 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// What the file says of its picture, else its first tile, else the coded stream.
+    /// Size of the picture: from the file, else from its first tile, else from the coded stream.
     pub fn of(file: &HeifFile, picture: ItemId, tile: ItemId, planes: &Planes) -> Self {
-        let told = |id| {
+        let nclx_of = |id| {
             let nclx = |property: &Property| match property {
                 Property::Color(ColorInfo::Nclx { matrix, full_range, .. }) => Some((*matrix, *full_range)),
                 _ => None,
@@ -24,7 +24,7 @@ impl Matrix {
             property(file, id, nclx).ok().flatten()
         };
         let (code, full_range) =
-            told(picture).or_else(|| told(tile)).unwrap_or((planes.matrix.into(), planes.full_range));
+            nclx_of(picture).or_else(|| nclx_of(tile)).unwrap_or((planes.matrix.into(), planes.full_range));
         let (red, blue) = match code {
             1 => (0.2126, 0.0722),
             9 | 10 => (0.2627, 0.0593),

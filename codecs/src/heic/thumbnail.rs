@@ -1,4 +1,4 @@
-//! The small picture that a file carries of its picture: an item that refers to it as its thumbnail (ISO/IEC 23008-12, 6.4.4).
+//! The small picture that a file contains of its picture: an item that refers to it as its thumbnail (ISO/IEC 23008-12, 6.4.4).
 
 use heifer_isobmff::{HeifFile, ItemId};
 
@@ -10,7 +10,7 @@ use crate::small;
 /// Of the side that is asked for, at least one in so much: what is smaller shows too little.
 const ENOUGH: u32 = 2;
 
-/// Width, height and RGBA of the smallest thumbnail that shows enough, reduced to `max_side`. None where there is none, where it is turned
+/// Width, height and RGBA of the smallest thumbnail that shows enough, reduced to `max_side`. `None` if there is none, where it is turned
 /// otherwise than the picture, or where it is damaged: the picture itself may still be sound.
 pub fn thumbnail(file: &HeifFile, length: usize, max_side: u32) -> Option<([u32; 2], Vec<u8>)> {
     let orientation = turn::orientation(file, file.primary_id).ok()?;

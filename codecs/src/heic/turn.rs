@@ -1,4 +1,4 @@
-//! What a file asks to be done with its picture before showing: crop, rotation, mirror.
+//! Transformations of the picture that a file requires before it is shown: crop, rotation, mirror.
 
 use heifer_isobmff::boxes::Property;
 use heifer_isobmff::{HeifFile, ItemId};
@@ -6,7 +6,7 @@ use heifer_isobmff::{HeifFile, ItemId};
 use sightline::error::{Damage, Result};
 
 use super::property;
-use crate::damage::{broken, said};
+use crate::damage::{broken, engine_error};
 
 /// Left, top, width and height of the clean aperture (ISO/IEC 14496-12, 12.1.4); the whole picture where there is none.
 pub fn crop(file: &HeifFile, id: ItemId, size: [u32; 2]) -> Result<[u32; 4]> {
@@ -57,10 +57,10 @@ const TURNS: [Turn; 8] = [
 /// A quarter turn to the left.
 const LEFT: Turn = TURNS[7];
 
-/// EXIF's orientation that says the same as the rotations and mirrors of an item, in their order.
+/// The EXIF orientation that is equivalent to the rotations and mirrors of an item, in their order.
 pub fn orientation(file: &HeifFile, id: ItemId) -> Result<u8> {
     let mut turn = TURNS[0];
-    for property in file.item_properties(id).map_err(|error| said(&error))? {
+    for property in file.item_properties(id).map_err(|error| engine_error(&error))? {
         match property {
             Property::Rotation(quarters) => (0..*quarters).for_each(|_| turn = after(LEFT, turn)),
             // from top to bottom, or from left to right

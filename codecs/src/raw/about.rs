@@ -1,4 +1,4 @@
-//! What a RAW says of its camera and of what is to be corrected.
+//! Metadata of a RAW file: the camera and the listed corrections.
 
 use flashraw::low_level::codecs::dng_opcodes;
 use flashraw::{FrameInfo, RawMetadata};

@@ -20,7 +20,7 @@ pub fn small(raw: &FlashRaw, max_side: u32) -> Option<([u32; 2], Vec<u8>)> {
     let (smaller, larger) = all.split_at(first);
     larger.iter().chain(smaller.iter().rev()).find_map(|preview| {
         if preview.encoding == PreviewEncoding::Jpeg {
-            // memory is taken for what the JPEG itself claims, whatever the directory around it says
+            // memory is reserved for the size in the JPEG itself, not for that in the directory
             let size = decode::jpeg_size(raw.preview_bytes(preview).ok()?).ok()?;
             check_size([size.width, size.height], preview.length as usize, MOST_FROM_A_BYTE).ok()?;
         }

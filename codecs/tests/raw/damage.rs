@@ -42,7 +42,7 @@ fn damage_is_told_and_nothing_else_happens() {
     assert!(whole.iter().all(|spot| nearest(&found.targets, spot).is_some()));
 }
 
-/// A directory's claims and those of the JPEG that shows the picture, which may hide from who only looks for its frame.
+/// A directory's claims and those of the JPEG that shows the picture, which may be missed by a search for its frame only.
 #[test]
 fn headers_are_held_against_the_bytes() {
     let wanted = Wanted { channel: Channel::Grey, samples: true, max_side: 64 };

@@ -36,7 +36,7 @@ pub type Direction = [f64; SIMILARITY];
 pub struct FreeDatum {
     /// 7, or 6 where distances fix the scale.
     pub defect: usize,
-    /// Coordinates (point, axis) that carry the datum, ascending: those of a point are looked for by bisection, and the order in
+    /// Coordinates (point, axis) that define the datum, ascending: those of a point are looked for by bisection, and the order in
     /// which the document names its datum points has no meaning.
     pub carriers: Vec<(usize, usize)>,
     /// Whether the carriers are held (minimal) rather than constrained on the whole (inner constraints).
@@ -76,7 +76,7 @@ pub fn at_photo(m: &[[f64; 3]; 3], centre: &[f64; 3]) -> [Direction; 6] {
 /// Chooses the datum's carriers; none under the control datum.
 ///
 /// # Errors
-/// [`Error::Invalid`] when the points named for the datum cannot carry it.
+/// [`Error::Invalid`] if the points named for the datum cannot define it.
 pub fn free_datum(network: &Network, state: &State) -> Result<Option<FreeDatum>> {
     let defect = if network.bars.is_empty() { SIMILARITY } else { SIMILARITY - 1 };
     let all: Vec<usize> = (0..network.points.len()).collect();
@@ -156,12 +156,12 @@ impl FreeDatum {
         if self.minimal { DMatrix::identity(self.carriers.len(), self.carriers.len()) } else { self.matrix(state) }
     }
 
-    /// (DᵀG)⁻¹; none where rounding leaves it singular.
+    /// (DᵀG)⁻¹; `None` if rounding leaves it singular.
     pub fn inverse_of_constrained(&self, state: &State) -> Option<DMatrix<f64>> {
         (self.constraint_rows(state).transpose() * self.matrix(state)).try_inverse()
     }
 
-    /// Carries the state by a similarity onto the carriers' initial coordinates: exactly for held coordinates, in the
+    /// Transforms the state by a similarity to the carriers' initial coordinates: exactly for held coordinates, in the
     /// sense of least squares for inner constraints.
     pub fn align(&self, state: &mut State, initial: &State) {
         for _ in 0..50 {

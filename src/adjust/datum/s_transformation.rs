@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, SMatrix};
 
 use crate::adjust::equations::context::Context;
-use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::normal::ReducedNormalEquations;
 use crate::adjust::linear::cholesky3::forward3;
 
 use super::free::{FreeDatum, SIMILARITY};
 
 /// The datum's S-transformation at reduced unknowns: V = (DᵀG)⁻¹DᵀQ, and (DᵀG)⁻¹DᵀQD(DᵀG)⁻ᵀ.
-pub struct Transformation {
+pub struct STransformation {
     /// Number of datum directions.
     pub defect: usize,
     /// One vector over the reduced unknowns per direction.
@@ -21,7 +21,7 @@ pub struct Transformation {
 }
 
 /// (DᵀG)⁻¹ᵀ-weighted constraint of the datum at one point: per direction a vector over its axes.
-pub fn carried(t: &Transformation, datum: Option<&FreeDatum>, point: usize) -> Vec<[f64; 3]> {
+pub fn carried(t: &STransformation, datum: Option<&FreeDatum>, point: usize) -> Vec<[f64; 3]> {
     let mut own = vec![[0.0; 3]; t.defect];
     let carriers = datum.map_or(&[][..], |d| &d.carriers[..]);
     let first = carriers.partition_point(|(p, _)| *p < point);
@@ -38,18 +38,22 @@ pub fn transformed<const K: usize>(
     q: &SMatrix<f64, K, K>,
     g: &SMatrix<f64, K, SIMILARITY>,
     v: &SMatrix<f64, SIMILARITY, K>,
-    t: &Transformation,
+    t: &STransformation,
 ) -> SMatrix<f64, K, K> {
     let gv = g * v;
     q - gv - gv.transpose() + g * t.square * g.transpose()
 }
 
 /// Solves the equations for the datum's constraints as right-hand sides.
-pub fn transformation(normal: &Normal, context: Context<'_>, datum: &FreeDatum) -> Option<Transformation> {
+pub fn transformation(
+    normal: &ReducedNormalEquations,
+    context: Context<'_>,
+    datum: &FreeDatum,
+) -> Option<STransformation> {
     let Context { network, layout, state, .. } = context;
     // D (DᵀG)⁻ᵀ, so that everything below is already multiplied by the inverse.
     let d = datum.constraint_rows(state) * datum.inverse_of_constrained(state)?.transpose();
-    let mut t = Transformation {
+    let mut t = STransformation {
         defect: datum.defect,
         v: vec![vec![0.0; layout.size]; datum.defect],
         d,

@@ -1,6 +1,6 @@
 //! Advice: weaknesses of a solved network.
 
-use crate::adjust::problem::additional::Key;
+use crate::adjust::problem::left_out::Key;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjustment::criteria::{HIGH_CORRELATION, LOW_REDUNDANCY, NARROW_INTERSECTION};
@@ -9,7 +9,7 @@ use crate::project::{Parameter, Project};
 
 use super::structure::{photo_id, point_id};
 
-/// Principal distances whose standard errors are a larger part of them are told.
+/// Principal distances whose standard errors are a larger share of them are reported.
 const WEAK_DISTANCE: f64 = 0.05;
 
 /// Principal distances that the geometry leaves nearly open: parallel photos, or a plane seen from one side.
@@ -39,7 +39,7 @@ fn weak_principal_distances(network: &Network, state: &State, adjustment: &Adjus
     advice
 }
 
-/// What a solved network is weak in.
+/// Weaknesses of a solved network.
 pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &Adjustment) -> Vec<Advice> {
     let mut advice = weak_principal_distances(network, state, adjustment);
     for camera in &adjustment.cameras {
@@ -59,7 +59,7 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
     for (block, photo) in network.photos.iter().zip(&adjustment.photos) {
         let Some(correlation) = &photo.correlation else { continue };
         for (i, row) in correlation.matrix.iter().enumerate() {
-            // The interior orientation's own correlations are told once, above.
+            // The interior orientation's own correlations are reported once, above.
             for (j, value) in row.iter().enumerate().take(i.min(6)).filter(|(_, v)| v.abs() > HIGH_CORRELATION) {
                 advice.push(Advice::HighCorrelation {
                     camera: project.photos[block.index].camera.clone(),

@@ -1,4 +1,4 @@
-//! Tests of observations, parameters and standard errors of a result, with the criteria that it carries.
+//! Tests of observations, parameters and standard errors of a result, with its criteria.
 
 use crate::adjustment::{AdjustedCamera, AdjustedObservation, Adjustment, Advice, Criteria, GivenObservation};
 use crate::statistics::distribution::critical_among;
@@ -18,7 +18,7 @@ pub fn judgement(adjustment: &Adjustment, unmodelled: Option<f64>) -> Vec<Advice
     advice
 }
 
-/// What σ0 says of the standard errors of the image coordinates.
+/// Verdict on the standard errors of the image coordinates from σ0.
 fn standard_errors(adjustment: &Adjustment, unmodelled: Option<f64>) -> Option<Advice> {
     let (sigma0, test) = (adjustment.sigma0?, adjustment.global_test.as_ref()?);
     // A systematic error is not noise: the standard errors are judged by σ0 without the named pattern.
@@ -61,7 +61,7 @@ fn suspected(adjustment: &Adjustment) -> Option<Advice> {
     (count > 0).then_some(Advice::Suspected { count, observations, given })
 }
 
-/// Parameters of distortion that are not told from 0, each with the one it is most correlated with.
+/// Parameters of distortion that are not significantly different from 0, each with the one it is most correlated with.
 fn insignificant(camera: &AdjustedCamera, criteria: &Criteria) -> Vec<Advice> {
     let AdjustedCamera { significance, correlation, .. } = camera;
     let small = significance.iter().filter(|(_, ratio)| **ratio < criteria.significance);

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::adjust::datum::free::{self, Direction, SIMILARITY};
 use crate::adjust::equations::back_substitution::Full;
 use crate::adjust::equations::context::Context;
-use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::normal::ReducedNormalEquations;
 use crate::adjust::equations::ordering::Layout;
 use crate::adjust::problem::state::State;
 
@@ -16,7 +16,7 @@ const MOST_VECTORS: usize = 12;
 
 /// Vectors that the observations do not determine, each unknown weighted by the effect it has on its own observations.
 /// Inverse iteration with (N + λD)⁻¹D, orthogonal in D.
-pub fn null_space(context: Context<'_>, normal: &mut Normal, pins: &[usize]) -> Option<Vec<Full>> {
+pub fn null_space(context: Context<'_>, normal: &mut ReducedNormalEquations, pins: &[usize]) -> Option<Vec<Full>> {
     let Context { network, layout, state, .. } = context;
     if !normal.build(context, SHIFT, pins) {
         return None;

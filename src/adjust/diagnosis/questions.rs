@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::adjustment::{Adjustment, Advice, OneStation};
 use crate::error::{Defect, Error};
 use crate::initial::Pose;
-use crate::plausibility::axes::{self, Pair, Question};
+use crate::plausibility::axes::{self, PointPair, Question};
 use crate::plausibility::{cameras, one_station, scale, units};
 use crate::project::{DatumKind, Photo, Project, Role};
 
@@ -25,7 +25,7 @@ pub fn one_place(project: &Project) -> Option<Error> {
     Some(Error::RankDefect { defects: vec![Defect::OneStation { photos }] })
 }
 
-/// What is to be asked, what spoils everything else first; `distances` is how many distances take part.
+/// Questions about the input, the most serious first; `distances` is the number of distances that are used.
 pub fn questions(project: &Project, distances: usize, adjustment: &Adjustment) -> Vec<Advice> {
     // Cameras and orientations as the network determines them.
     let adjusted = crate::adjust::apply(project, adjustment);
@@ -40,12 +40,12 @@ pub fn questions(project: &Project, distances: usize, adjustment: &Adjustment) -
     advice
 }
 
-/// Whether it says what is wrong with everything given, rather than with single items.
+/// Whether it concerns all given values rather than single items.
 pub fn is_cause(advice: &Advice) -> bool {
     matches!(advice, Advice::MirroredControl(_) | Advice::UndecidedAxes(_) | Advice::UnitRatio(_))
 }
 
-/// Whether it says that something given bends the fit of the photos, so that their residuals are systematic for that reason.
+/// Whether it means that a given value distorts the fit of the photos, so that their residuals are systematic for that reason.
 pub fn bends(advice: &Advice) -> bool {
     is_cause(advice) || matches!(advice, Advice::ControlMisfit { .. } | Advice::ExchangedPoints { .. })
 }
@@ -57,11 +57,11 @@ fn axes(project: &Project, adjustment: &Adjustment) -> Option<Question> {
     let of_given = |sigma: Option<[Option<f64>; 3]>| sigma.map_or(0.0, |s| rms(s.map(Option::unwrap_or_default)));
     let given: HashMap<&str, _> =
         project.points.iter().filter(|p| p.role != Role::Tie).map(|p| (p.id.as_str(), p)).collect();
-    let mut pairs: Vec<Pair> = Vec::new();
+    let mut pairs: Vec<PointPair> = Vec::new();
     for point in adjustment.points.iter().filter(|p| p.rays >= RAYS) {
         let Some((xyz, sigma)) = given.get(point.id.as_str()).and_then(|p| Some((p.xyz?, p.sigma))) else { continue };
         let free_sigma = point.sigma.map_or(0.0, rms);
-        pairs.push(Pair { free: point.xyz.into(), given: xyz.into(), free_sigma, given_sigma: of_given(sigma) });
+        pairs.push(PointPair { free: point.xyz.into(), given: xyz.into(), free_sigma, given_sigma: of_given(sigma) });
     }
     let pose = |p: &crate::adjustment::AdjustedPhoto| {
         let (position, rotation) = (Some(p.position), Some(p.rotation));

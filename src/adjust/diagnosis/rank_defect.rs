@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::adjust::equations::context::{Context, Weighting};
-use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::normal::ReducedNormalEquations;
 use crate::adjustment::ResidualPlace;
 use crate::error::{Defect, Error};
 use crate::project::Project;
@@ -13,7 +13,12 @@ use super::null_space::null_space;
 use super::structure::{groups, not_tied, photo_id, point_id};
 
 /// Reads a rank defect from the null space of the normal equations, whatever the weights; overwrites `normal`.
-pub fn rank_defect(project: &Project, context: Context<'_>, normal: &mut Normal, pins: &[usize]) -> Error {
+pub fn rank_defect(
+    project: &Project,
+    context: Context<'_>,
+    normal: &mut ReducedNormalEquations,
+    pins: &[usize],
+) -> Error {
     let Context { network, layout, .. } = context;
     let weighting = Weighting { place: ResidualPlace::Corrected, robust: &[], shift: &[] };
     let vectors = null_space(Context { weighting, ..context }, normal, pins).unwrap_or_default();

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use crate::adjust::linear::cholesky3::{PointFactor, backward3, forward3};
 use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::{Pose, State};
+use crate::adjust::problem::state::{ExteriorOrientation, State};
 
 use super::ordering::Layout;
 
@@ -26,24 +26,24 @@ pub struct Own {
 
 /// The eliminated points.
 #[derive(Clone, Debug)]
-pub struct Eliminated {
+pub struct EliminatedPoints {
     /// Per point; unused for kept ones.
     pub factors: Vec<PointFactor>,
     /// Per ray its weighted rows by the photo's shift, which are -A, held axes included; unused for rays of kept points.
     pub by_shift: Vec<[[f64; 3]; 2]>,
-    /// Points that their rays do not determine, as far as the numbers can tell.
+    /// Points that their rays do not determine, within the precision of the numbers.
     pub lost: Vec<usize>,
     own: Vec<Own>,
     own_of: Vec<Range<usize>>,
     u: Vec<f64>,
     /// Where the rows were taken.
-    poses: Vec<Pose>,
+    poses: Vec<ExteriorOrientation>,
     points: Vec<[f64; 3]>,
 }
 
-/// What a change of a photo does to its rays: its turn in the object frame, its shift.
+/// Change of a photo's exterior orientation: rotation in the object frame, shift.
 #[derive(Clone, Copy)]
-struct Motion {
+struct PhotoMotion {
     turn: [f64; 3],
     shift: [f64; 3],
 }
@@ -65,7 +65,7 @@ fn free(x: [f64; 3], fixed: &[bool; 3]) -> [f64; 3] {
     std::array::from_fn(|a| if fixed[a] { 0.0 } else { x[a] })
 }
 
-impl Eliminated {
+impl EliminatedPoints {
     /// Room for a network's points.
     pub fn new(network: &Network) -> Self {
         let (mut own, mut own_of, mut at) = (Vec::<Own>::new(), Vec::new(), 0);
@@ -165,25 +165,32 @@ impl Eliminated {
         }
     }
 
-    /// What a vector over the reduced unknowns does to the photos' rays.
-    fn motions(&self, layout: &Layout, x: &[f64]) -> Vec<Motion> {
-        let motion = |(pose, &at): (&Pose, &usize)| {
+    /// Change of the photos' rays by a vector of the reduced unknowns.
+    fn motions(&self, layout: &Layout, x: &[f64]) -> Vec<PhotoMotion> {
+        let motion = |(pose, &at): (&ExteriorOrientation, &usize)| {
             let [t, shift]: [[f64; 3]; 2] = [at, at + 3].map(|at| [x[at], x[at + 1], x[at + 2]]);
             let m = &pose.m;
             let turn = std::array::from_fn(|k| m[0][k] * t[0] + m[1][k] * t[1] + m[2][k] * t[2]);
-            Motion { turn, shift }
+            PhotoMotion { turn, shift }
         };
         self.poses.iter().zip(&layout.photo).map(motion).collect()
     }
 
     /// Zᵀx of one point, from `motions` by x.
     #[inline(always)]
-    fn product(&self, network: &Network, layout: &Layout, point: usize, motions: &[Motion], x: &[f64]) -> [f64; 3] {
+    fn product(
+        &self,
+        network: &Network,
+        layout: &Layout,
+        point: usize,
+        motions: &[PhotoMotion],
+        x: &[f64],
+    ) -> [f64; 3] {
         let block = &network.points[point];
         let (place, rays) = (self.points[point], block.rays.clone());
         let mut pull = [0.0; 3];
         for (ray, a) in network.rays[rays.clone()].iter().zip(&self.by_shift[rays]) {
-            let Motion { turn, shift } = motions[ray.photo];
+            let PhotoMotion { turn, shift } = motions[ray.photo];
             let moved = difference(cross(turn, difference(place, self.poses[ray.photo].centre)), shift);
             let [v, w] = a.map(|a| dot(a, moved));
             (0..3).for_each(|k| pull[k] += a[0][k] * v + a[1][k] * w);
@@ -255,7 +262,7 @@ impl Full {
     }
 
     /// The reduced right-hand side after the points' elimination, and L⁻¹ of the points' own part.
-    pub fn forward(&mut self, network: &Network, layout: &Layout, eliminated: &Eliminated) {
+    pub fn forward(&mut self, network: &Network, layout: &Layout, eliminated: &EliminatedPoints) {
         for point in (0..network.points.len()).filter(|p| !network.points[*p].kept) {
             let d = forward3(&eliminated.factors[point].l, self.points[point]);
             self.points[point] = d;
@@ -264,7 +271,7 @@ impl Full {
     }
 
     /// The points' part of a solution, after the reduced part.
-    pub fn backward(&mut self, network: &Network, layout: &Layout, eliminated: &Eliminated) {
+    pub fn backward(&mut self, network: &Network, layout: &Layout, eliminated: &EliminatedPoints) {
         let motions = eliminated.motions(layout, &self.reduced);
         for (point, block) in network.points.iter().enumerate().filter(|(_, block)| !block.kept) {
             let sum = eliminated.product(network, layout, point, &motions, &self.reduced);
@@ -279,42 +286,62 @@ impl Full {
 mod tests {
     use super::super::collinearity::Linearisation;
     use super::super::context::{Context, Weighting};
-    use super::super::normal::Normal;
+    use super::super::normal::ReducedNormalEquations;
     use super::super::ordering::layout;
     use super::*;
-    use crate::adjust::problem::additional::LeftOut;
+    use crate::adjust::problem::left_out::RejectedObservations;
     use crate::adjust::problem::numbering::Numbering;
     use crate::adjustment::ResidualPlace;
-    use crate::network::{NetworkPoint, Station, simulate};
-    use crate::project::{Camera, DatumKind, Interior, Role, Sigma};
+    use crate::camera::pixel_from_camera_point;
+    use crate::project::{Camera, DatumKind, Interior, Observation, Photo, Point, Project, Role, Sigma};
+    use crate::rotation::object_to_camera;
+    use nalgebra::Vector3;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     /// Five turned photos of twelve points far from the origin, of which the first is held in one axis.
     fn network() -> (Network, State) {
         let camera = Camera { pixel_pitch: Some([0.005; 2]), ..Camera::new("c", 2000, 1600, Interior::brown(12.0)) };
-        let point = |k: u32| NetworkPoint {
+        let point = |k: u32| Point {
             id: k.to_string(),
-            xyz: [5000.0 + f64::from(k % 4) * 100.0, f64::from(k / 4) * 100.0, f64::from(k * 7 % 5) * 40.0],
-            ..NetworkPoint::default()
+            xyz: Some([5000.0 + f64::from(k % 4) * 100.0, f64::from(k / 4) * 100.0, f64::from(k * 7 % 5) * 40.0]),
+            ..Point::default()
         };
-        let station = |k: u32| {
+        let photo = |k: u32| {
             let turn = f64::from(k) * 1.3;
             let position = [5150.0 + 900.0 * turn.cos(), 100.0 + 900.0 * turn.sin(), 900.0];
-            Station::aimed(format!("s{k}"), "c", position, [5150.0, 100.0, 80.0], turn)
+            // Towards the middle of the points: this is the third row of M.
+            let view = (Vector3::from(position) - Vector3::new(5150.0, 100.0, 80.0)).normalize();
+            let rotation = [(-view.y).atan2(view.z), view.x.asin(), turn];
+            Photo {
+                id: format!("s{k}"),
+                camera: "c".into(),
+                position: Some(position),
+                rotation: Some(rotation),
+                enabled: true,
+                ..Photo::default()
+            }
         };
-        let mut project = simulate(&crate::network::Network {
-            cameras: vec![camera],
-            stations: (0..5).map(station).collect(),
-            points: (0..12).map(point).collect(),
-            sigma: Sigma::One(0.1),
-            ..crate::network::Network::default()
-        })
-        .unwrap();
+        let mut project = Project {
+            photos: (0..5).map(photo).collect::<Vec<_>>().into(),
+            points: (0..12).map(point).collect::<Vec<_>>().into(),
+            ..Project::default()
+        };
+        for (photo, point) in project.photos.iter().flat_map(|photo| project.points.iter().map(move |p| (photo, p))) {
+            let (Some(position), Some(angles), Some(xyz)) = (photo.position, photo.rotation, point.xyz) else {
+                continue;
+            };
+            let seen = object_to_camera(angles) * (Vector3::from(xyz) - Vector3::from(position));
+            let [u, v] = pixel_from_camera_point(&camera, seen).expect("before the camera");
+            let (photo, point) = (photo.id.clone(), point.id.clone());
+            let sigma = Sigma::One(0.1);
+            project.observations.push(Observation { photo, point, u, v, sigma, enabled: true, target: None });
+        }
+        project.cameras.push(camera);
         project.datum.kind = DatumKind::Control;
         project.points[0].role = Role::Control;
         project.points[0].sigma = Some([Some(1.0), Some(0.0), Some(1.0)]);
-        Network::new(&project, &Numbering::of(&project), &LeftOut::nothing(&project)).unwrap()
+        Network::new(&project, &Numbering::of(&project), &RejectedObservations::nothing(&project)).unwrap()
     }
 
     #[test]
@@ -323,7 +350,7 @@ mod tests {
         let layout = layout(&mut network);
         assert_eq!(network.points.iter().filter(|p| p.fixed == [false, true, false]).count(), 1);
         let weighting = Weighting { place: ResidualPlace::Corrected, robust: &[], shift: &[] };
-        let mut normal = Normal::new(&network, &layout);
+        let mut normal = ReducedNormalEquations::new(&network, &layout);
         let context = Context { network: &network, layout: &layout, state: &state, weighting };
         assert!(normal.build(context, 0.0, &[]));
         let eliminated = &normal.eliminated;

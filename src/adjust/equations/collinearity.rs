@@ -4,8 +4,8 @@
 //! With p = M(X - XL) and the model's derivative J = ∂e/∂p, the turn t of the photo (M' = exp([t]×)M) and the shift of its
 //! centre: ∂e/∂X = J·M, ∂e/∂XL = -J·M, ∂e/∂t = p × Jᵀ (per row).
 
-use crate::adjust::problem::network::{Network, PointBlock, Ray};
-use crate::adjust::problem::state::{Pose, State};
+use crate::adjust::problem::network::{ImageObservation, Network, PointBlock};
+use crate::adjust::problem::state::{ExteriorOrientation, State};
 use crate::adjustment::ResidualPlace;
 use crate::camera::{Brown, Linearised, Model, PARAMETERS};
 
@@ -13,7 +13,7 @@ use super::context::{Context, Weighting};
 
 /// Weighted rows of one ray. `N` is the number of interior unknowns, padded with zeros.
 #[derive(Clone, Copy, Debug)]
-pub struct Row<const N: usize> {
+pub struct CollinearityRows<const N: usize> {
     /// Photo.
     pub photo: usize,
     /// Interior orientation.
@@ -28,7 +28,7 @@ pub struct Row<const N: usize> {
     pub interior_rows: [[f64; N]; 2],
 }
 
-impl<const N: usize> Row<N> {
+impl<const N: usize> CollinearityRows<N> {
     /// Nothing.
     pub const ZERO: Self = Self {
         photo: 0,
@@ -45,19 +45,19 @@ pub struct Linearisation<'a, const N: usize> {
     network: &'a Network,
     state: &'a State,
     weighting: Weighting<'a>,
-    /// Of the photos' interior orientations in their colours.
+    /// Of the interior orientations.
     models: Vec<Model>,
     /// Per interior orientation the column of every unknown among the model's derivatives, and its scale, 0 for none.
     columns: Vec<[(usize, f64); N]>,
-    /// Whether all unknowns stand in the order of the model's first columns.
+    /// Whether all unknowns are in the order of the model's first columns.
     ordered: bool,
 }
 
 impl<'a, const N: usize> Linearisation<'a, N> {
-    /// None where a principal distance is missing.
+    /// `None` if a principal distance is missing.
     pub fn new(context: Context<'a>) -> Option<Self> {
         let Context { network, state, weighting, .. } = context;
-        let models = network.imaging_interiors(state).map(|interior| Model::new(&interior)).collect::<Option<_>>()?;
+        let models = state.interiors.iter().map(Model::new).collect::<Option<_>>()?;
         let columns = network.interiors.iter().map(|interior| {
             let of = |k: usize| interior.estimated.get(k).map_or((k, 0.0), |e| (e.column, e.scale));
             std::array::from_fn(of)
@@ -67,13 +67,18 @@ impl<'a, const N: usize> Linearisation<'a, N> {
         Some(Self { network, state, weighting, models, columns, ordered })
     }
 
-    /// Rows of the point's rays, in `room`; none where a projection does not exist. Counts rays behind their camera.
-    pub fn point<'r>(&self, point: usize, room: &'r mut Vec<Row<N>>, behind: &mut usize) -> Option<&'r [Row<N>]> {
+    /// Rows of the point's rays, in `room`; `None` if a projection does not exist. Counts rays behind their camera.
+    pub fn point<'r>(
+        &self,
+        point: usize,
+        room: &'r mut Vec<CollinearityRows<N>>,
+        behind: &mut usize,
+    ) -> Option<&'r [CollinearityRows<N>]> {
         let block = &self.network.points[point];
         let x = &self.state.points[point];
         let count = block.rays.len();
         if room.len() < count {
-            room.resize(count, Row::ZERO);
+            room.resize(count, CollinearityRows::ZERO);
         }
         let rows = &mut room[..count];
         for (k, row) in block.rays.clone().zip(&mut *rows) {
@@ -81,14 +86,14 @@ impl<'a, const N: usize> Linearisation<'a, N> {
             row.photo = ray.photo;
             let photo = &self.network.photos[ray.photo];
             row.interior = photo.interior;
-            let seen = Seen {
+            let seen = RayContext {
                 pose: &self.state.poses[ray.photo],
                 ray,
                 shift: self.weighting.shift.get(k).unwrap_or(&[0.0; 2]),
                 factor: self.weighting.robust.get(k).unwrap_or(&[1.0; 2]),
                 columns: &self.columns[row.interior],
             };
-            *behind += match (&self.models[photo.imaging], self.weighting.place) {
+            *behind += match (&self.models[photo.interior], self.weighting.place) {
                 (Model::Brown(brown), ResidualPlace::Corrected) if self.ordered => brown_row(brown, &seen, x, row)?,
                 (model, place) => model_row(model, place, &seen, x, row)?,
             };
@@ -100,16 +105,16 @@ impl<'a, const N: usize> Linearisation<'a, N> {
     }
 }
 
-/// What a ray's rows depend on besides the point and the model.
-struct Seen<'a, const N: usize> {
-    pose: &'a Pose,
-    ray: &'a Ray,
+/// Input of a ray's rows besides the point and the camera model.
+struct RayContext<'a, const N: usize> {
+    pose: &'a ExteriorOrientation,
+    ray: &'a ImageObservation,
     shift: &'a [f64; 2],
     factor: &'a [f64; 2],
     columns: &'a [(usize, f64); N],
 }
 
-impl<const N: usize> Seen<'_, N> {
+impl<const N: usize> RayContext<'_, N> {
     #[inline(always)]
     fn measured(&self) -> [f64; 2] {
         std::array::from_fn(|s| self.ray.measured[s] - self.shift[s])
@@ -121,7 +126,7 @@ impl<const N: usize> Seen<'_, N> {
         &self,
         p: [f64; 3],
         linear: &Linearised,
-        row: &mut Row<N>,
+        row: &mut CollinearityRows<N>,
         by_unknown: impl Fn(&[f64; PARAMETERS], &mut [f64; N]),
     ) -> usize {
         for side in 0..2 {
@@ -148,7 +153,12 @@ impl<const N: usize> Seen<'_, N> {
 
 /// The most frequent case, whose derivatives stay in registers: not inlined, or they would not.
 #[inline(never)]
-fn brown_row<const N: usize>(brown: &Brown, seen: &Seen<'_, N>, x: &[f64; 3], row: &mut Row<N>) -> Option<usize> {
+fn brown_row<const N: usize>(
+    brown: &Brown,
+    seen: &RayContext<'_, N>,
+    x: &[f64; 3],
+    row: &mut CollinearityRows<N>,
+) -> Option<usize> {
     let p = seen.pose.camera_point(x);
     let linear = brown.linearise(seen.measured(), p)?;
     Some(seen.fill(p, &linear, row, |by_parameter, to| {
@@ -162,9 +172,9 @@ fn brown_row<const N: usize>(brown: &Brown, seen: &Seen<'_, N>, x: &[f64; 3], ro
 fn model_row<const N: usize>(
     model: &Model,
     place: ResidualPlace,
-    seen: &Seen<'_, N>,
+    seen: &RayContext<'_, N>,
     x: &[f64; 3],
-    row: &mut Row<N>,
+    row: &mut CollinearityRows<N>,
 ) -> Option<usize> {
     let p = seen.pose.camera_point(x);
     let linear = model.linearise(seen.measured(), p, place)?;
@@ -178,7 +188,11 @@ fn model_row<const N: usize>(
 
 /// Equations of the point alone, given coordinates included: normal matrix (xx, xy, xz, yy, yz, zz), Aᵀe, squares.
 #[inline(never)]
-pub fn point_equations<const N: usize>(block: &PointBlock, x: &[f64; 3], rows: &[Row<N>]) -> ([f64; 6], [f64; 3], f64) {
+pub fn point_equations<const N: usize>(
+    block: &PointBlock,
+    x: &[f64; 3],
+    rows: &[CollinearityRows<N>],
+) -> ([f64; 6], [f64; 3], f64) {
     let (mut n, mut g, mut cost) = ([0.0; 6], [0.0; 3], 0.0);
     for row in rows {
         for (a, e) in row.point.iter().zip(row.e) {

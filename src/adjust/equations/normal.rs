@@ -1,14 +1,15 @@
 //! Reduced normal equations, accumulated point by point; the design matrix is never formed.
 //!
-//! For one point with weighted rows A (by the point), G (by photos and interior orientations) and residuals e, the
+//! For one point with weighted rows A (derivatives by the point), G (by photos and interior orientations) and residuals e, the
 //! normal matrix of the point is N = AᵀA = L·Lᵀ. With B = A·L⁻ᵀ and h = Bᵀe the point's elimination leaves
 //!
 //! ```text
 //! S += GᵀG - (GᵀB)(GᵀB)ᵀ,   right-hand side -= Gᵀe - (GᵀB)h,   δX = -L⁻ᵀ(h + BᵀGδ)
 //! ```
 //!
-//! Distances, given values and the relative poses of a rig come on top. Points that a distance ties to another stay in S. Damping (Levenberg-Marquardt) multiplies the diagonals of the
-//! normal equations by 1 + λ. Pins, a weight on seven photo unknowns, take up a free datum; see [`crate::adjust::datum::free`].
+//! Distances, given values and the relative poses of a rig are added to S. The end points of distances are not eliminated. Damping
+//! (Levenberg-Marquardt) multiplies the diagonals of the normal equations by 1 + λ. `pins`, weights on seven photo unknowns, remove the
+//! datum defect of a free network; see [`crate::adjust::datum::free`].
 
 use std::collections::BTreeMap;
 
@@ -16,9 +17,9 @@ use crate::adjust::linear::tiles::TileMatrix;
 use crate::adjust::problem::additional::distance_row;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::rig::Deviation;
-use crate::adjust::problem::state::Step;
+use crate::adjust::problem::step::Step;
 
-use super::back_substitution::{Eliminated, Full};
+use super::back_substitution::{EliminatedPoints, Full};
 use super::context::Context;
 use super::ordering::Layout;
 use super::right_hand_side::gradient;
@@ -26,7 +27,7 @@ use super::schur::accumulate;
 
 /// Reduced normal equations at a state.
 #[derive(Clone, Debug)]
-pub struct Normal {
+pub struct ReducedNormalEquations {
     /// S; after [`Self::factor`] its Cholesky factor.
     pub matrix: TileMatrix,
     /// Right-hand side.
@@ -34,10 +35,10 @@ pub struct Normal {
     /// Diagonal of the normal equations before elimination.
     pub reference: Vec<f64>,
     /// Eliminated points.
-    pub eliminated: Eliminated,
+    pub eliminated: EliminatedPoints,
     /// vᵀPv at the state.
     pub cost: f64,
-    /// Rays whose point lies behind their camera.
+    /// Number of rays whose point lies behind the camera.
     pub behind: usize,
     /// Damping of the equations.
     pub lambda: f64,
@@ -45,16 +46,16 @@ pub struct Normal {
 
 /// A solution of the normal equations.
 #[derive(Clone, Debug, Default)]
-pub struct Solution {
+pub struct NormalSolution {
     /// The step.
     pub step: Step,
     /// Squared length of the step in standard errors, δᵀ(N + λD)δ.
     pub decrement: f64,
-    /// Lowering of vᵀPv that the linear model predicts.
+    /// Decrease of vᵀPv predicted by the linear model.
     pub predicted: f64,
 }
 
-/// Dispatches on the room of an interior orientation, [`Network::interior_size`].
+/// Calls a function that is generic over the number of columns reserved for an interior orientation, [`Network::interior_size`].
 macro_rules! with_interior_size {
     ($network:expr, $call:ident ( $($argument:expr),* )) => {
         match $network.interior_size() {
@@ -70,21 +71,21 @@ macro_rules! with_interior_size {
 }
 pub(in crate::adjust) use with_interior_size;
 
-impl Normal {
+impl ReducedNormalEquations {
     /// Empty equations of a layout.
     pub fn new(network: &Network, layout: &Layout) -> Self {
         Self {
             matrix: TileMatrix::new(layout.pattern.clone()),
             rhs: vec![0.0; layout.size],
             reference: vec![0.0; layout.size],
-            eliminated: Eliminated::new(network),
+            eliminated: EliminatedPoints::new(network),
             cost: 0.0,
             behind: 0,
             lambda: 0.0,
         }
     }
 
-    /// Accumulates the equations at a state. Returns false where a projection does not exist.
+    /// Accumulates the equations at a state. Returns false if a point cannot be projected.
     pub fn build(&mut self, context: Context<'_>, lambda: f64, pins: &[usize]) -> bool {
         self.matrix.clear();
         self.rhs.fill(0.0);
@@ -103,8 +104,8 @@ impl Normal {
         true
     }
 
-    /// The right-hand side alone at another state, for the factor at hand: one step of the simplified Newton iteration, which
-    /// costs a fraction of new equations. Returns false where a projection does not exist.
+    /// Computes only the right-hand side, at another state, and keeps the factored matrix: one step of the simplified Newton iteration,
+    /// much cheaper than new equations. Returns false if a point cannot be projected.
     pub fn renew(&mut self, context: Context<'_>) -> bool {
         self.rhs.fill(0.0);
         self.cost = 0.0;
@@ -115,7 +116,7 @@ impl Normal {
         sound.is_some() && self.cost.is_finite()
     }
 
-    /// Adds to the lower triangle, and to the reference where that is the diagonal.
+    /// Adds a value to the lower triangle, and to `reference` if it is on the diagonal.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let at = self.matrix.place(row.max(column), row.min(column));
         self.matrix.data_mut()[at] += value;
@@ -124,7 +125,7 @@ impl Normal {
         }
     }
 
-    /// Distances and observed values of photos and interior orientations, in the matrix too if `whole`.
+    /// Adds distances and observed values of photos and interior orientations to the right-hand side, and to the matrix if `whole`.
     fn add_given(&mut self, Context { network, layout, state, weighting }: Context<'_>, whole: bool) {
         for bar in &network.bars {
             let (e, rows) = distance_row(network, state, bar);
@@ -187,7 +188,7 @@ impl Normal {
         }
     }
 
-    /// Damping, pins, fixed axes of kept points and the gaps between blocks.
+    /// Adds damping and pins to the diagonal; sets it to 1 for held axes of points and for unused places between blocks.
     fn finish_diagonal(&mut self, Context { network, layout, .. }: Context<'_>, pins: &[usize]) {
         let mut used = vec![false; layout.size];
         for start in &layout.photo {
@@ -214,15 +215,15 @@ impl Normal {
         }
     }
 
-    /// Factors the matrix; returns the indices of pivots lost to rounding, those of eliminated points behind all others.
+    /// Factors the matrix. Returns the indices of numerically zero pivots; those of eliminated points follow after the size of S.
     pub fn factor(&mut self) -> Vec<usize> {
         let mut lost = self.matrix.factor(&self.reference, 1e-12);
         lost.extend(self.eliminated.lost.iter().map(|point| self.rhs.len() + point));
         lost
     }
 
-    /// The step of factored equations.
-    pub fn solve(&self, network: &Network, layout: &Layout) -> Solution {
+    /// Solves the factored equations for the step.
+    pub fn solve(&self, network: &Network, layout: &Layout) -> NormalSolution {
         let mut x = self.rhs.clone();
         self.matrix.solve(&mut x);
         let mut decrement: f64 = x.iter().zip(&self.rhs).map(|(x, b)| x * b).sum();
@@ -242,7 +243,7 @@ impl Normal {
                 .collect(),
             points,
         };
-        Solution { step, decrement, predicted: decrement + damped }
+        NormalSolution { step, decrement, predicted: decrement + damped }
     }
 
     /// Solves the factored equations for several right-hand sides over all unknowns, in place.

@@ -1,4 +1,4 @@
-//! Where every block stands in the reduced normal equations: photos in an order that keeps the factor thin, then kept
+//! Position of every block in the reduced normal equations: photos in an order that keeps the factor thin, then kept
 //! points, then interior orientations that many photos share.
 //!
 //! No block crosses the border of a tile, so that every pair of blocks lies in one tile; the gaps hold a unit diagonal.
@@ -6,7 +6,7 @@
 //! keeps its own order, a strip or a ring is renumbered (reverse Cuthill-McKee, or minimum degree).
 
 use crate::adjust::linear::kernel::TILE;
-use crate::adjust::linear::tiles::Pattern;
+use crate::adjust::linear::tiles::TilePattern;
 use crate::adjust::problem::network::Network;
 
 /// Places of the blocks.
@@ -21,7 +21,7 @@ pub struct Layout {
     /// Length of the vectors, gaps included.
     pub size: usize,
     /// Tiles of the factor.
-    pub pattern: Pattern,
+    pub pattern: TilePattern,
 }
 
 /// Chooses an order, sorts the network's rays by it and returns the places.
@@ -148,7 +148,7 @@ fn place(network: &Network, neighbours: &[Vec<usize>], order: &[usize]) -> Layou
     let side = size / TILE;
     let mut present = vec![false; side * side];
     let mut join = |a: usize, b: usize| {
-        // Interior orientations without unknowns may stand at the very end.
+        // Interior orientations without unknowns may come last.
         if a.max(b) < size {
             present[a.max(b) / TILE * side + a.min(b) / TILE] = true;
         }
@@ -173,7 +173,7 @@ fn place(network: &Network, neighbours: &[Vec<usize>], order: &[usize]) -> Layou
         join(point[bar.from], point[bar.to]);
     }
     let tiles = (0..side * side).filter(|k| present[*k]).map(|k| (k / side, k % side));
-    Layout { photo, interior, point, size, pattern: Pattern::new(side, tiles.collect::<Vec<_>>().into_iter()) }
+    Layout { photo, interior, point, size, pattern: TilePattern::new(side, tiles.collect::<Vec<_>>().into_iter()) }
 }
 
 #[cfg(test)]

@@ -6,9 +6,9 @@ use crate::adjust::problem::additional::distance_row;
 
 use super::collinearity::{Linearisation, point_equations};
 use super::context::{Context, Weighting};
-use super::normal::Normal;
+use super::normal::ReducedNormalEquations;
 
-/// vᵀPv of a state without its normal equations, and the number of rays behind their camera; none where a projection
+/// vᵀPv of a state without its normal equations, and the number of rays behind their camera; `None` if a projection
 /// does not exist.
 pub fn cost(context: Context<'_>) -> Option<(f64, usize)> {
     let Context { network, state, .. } = context;
@@ -49,9 +49,9 @@ pub fn weighted_residuals(context: Context<'_>) -> Option<Vec<[f64; 2]>> {
     Some(residuals)
 }
 
-/// All points' contributions to the right-hand side, their elimination being the one at hand: with the point's own step
-/// t = -L⁻ᵀh every ray is left with e + At, and GᵀB h need not be formed. None where a projection does not exist.
-pub fn gradient<const N: usize>(normal: &mut Normal, context: Context<'_>) -> Option<()> {
+/// All points' contributions to the right-hand side, with the present elimination: with the point's own step
+/// t = -L⁻ᵀh every ray is left with e + At, and GᵀB h need not be formed. `None` if a projection does not exist.
+pub fn gradient<const N: usize>(normal: &mut ReducedNormalEquations, context: Context<'_>) -> Option<()> {
     let Context { network, layout, state, .. } = context;
     let linearisation = Linearisation::<N>::new(context)?;
     let (mut behind, mut room) = (0, Vec::new());

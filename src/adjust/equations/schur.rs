@@ -3,12 +3,12 @@
 use crate::adjust::linear::blocks::{add_lower, add_product, add_rows, add_squares};
 use crate::adjust::linear::cholesky3::{PointFactor, factor3, forward3};
 use crate::adjust::linear::kernel::TILE;
-use crate::adjust::linear::tiles::{Line, TileMatrix};
+use crate::adjust::linear::tiles::{TileMatrix, TileRow};
 use crate::adjust::problem::network::{PhotoBlock, PointBlock};
 
-use super::collinearity::{Linearisation, Row, point_equations};
+use super::collinearity::{CollinearityRows, Linearisation, point_equations};
 use super::context::Context;
-use super::normal::Normal;
+use super::normal::ReducedNormalEquations;
 use super::ordering::Layout;
 
 /// [`add_product`] for a block that may have fewer rows and columns than the arrays, and may belong above the diagonal.
@@ -36,11 +36,11 @@ fn add_outer_part<const M: usize, const R: usize, const C: usize>(
     }
 }
 
-/// Where a photo's numbers stand.
-struct Place {
+/// Offsets of a photo's unknowns.
+struct PhotoOffsets {
     /// In the vectors.
     row: usize,
-    line: Line,
+    line: TileRow,
     column: (u32, u32),
     /// Its own block in the matrix.
     own: usize,
@@ -57,11 +57,11 @@ struct Shared {
     cross: usize,
 }
 
-fn places<const N: usize>(matrix: &TileMatrix, Context { network, layout, .. }: Context<'_>) -> Vec<Place> {
+fn places<const N: usize>(matrix: &TileMatrix, Context { network, layout, .. }: Context<'_>) -> Vec<PhotoOffsets> {
     let place = |(photo, &row): (&PhotoBlock, &usize)| {
         let interior = layout.interior[photo.interior];
         let at = |column: usize| if N > 0 { matrix.place(interior, column) } else { 0 };
-        Place {
+        PhotoOffsets {
             row,
             line: matrix.line(row),
             column: TileMatrix::column(row),
@@ -72,28 +72,28 @@ fn places<const N: usize>(matrix: &TileMatrix, Context { network, layout, .. }: 
     network.photos.iter().zip(&layout.photo).map(place).collect()
 }
 
-/// What a ray's elimination goes on with: rows of B = A·L⁻ᵀ, and residuals less what the point's own step takes up, e - Bh.
+/// Elimination of a point, terms of one ray: rows of B = A·L⁻ᵀ, and residuals after the point's own step, e - Bh.
 #[derive(Clone, Copy)]
-struct Reduced {
+struct ReducedRay {
     b: [[f64; 3]; 2],
     e: [f64; 2],
 }
 
-/// What a point's elimination goes on with, ray by ray.
+/// Terms of a point's elimination, ray by ray.
 #[derive(Default)]
-struct Parts {
+struct RayEliminations {
     columns: Vec<(u32, u32)>,
-    reduced: Vec<Reduced>,
+    reduced: Vec<ReducedRay>,
     /// Zᵀ = BᵀG over the photo's unknowns.
     z: Vec<[[f64; 6]; 3]>,
 }
 
-/// All points' contributions. None where a projection does not exist.
-pub fn accumulate<const N: usize>(normal: &mut Normal, context: Context<'_>) -> Option<()> {
+/// All points' contributions. `None` if a projection does not exist.
+pub fn accumulate<const N: usize>(normal: &mut ReducedNormalEquations, context: Context<'_>) -> Option<()> {
     let Context { network, layout, state, .. } = context;
     let linearisation = Linearisation::<N>::new(context)?;
     let places = places::<N>(&normal.matrix, context);
-    let (mut room, mut parts) = (Vec::new(), Parts::default());
+    let (mut room, mut parts) = (Vec::new(), RayEliminations::default());
     let mut behind = 0;
     for (point, block) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;
@@ -124,12 +124,12 @@ pub fn accumulate<const N: usize>(normal: &mut Normal, context: Context<'_>) -> 
 
 /// Blocks of a point that stays in the reduced equations.
 fn keep<const N: usize>(
-    normal: &mut Normal,
+    normal: &mut ReducedNormalEquations,
     Context { network, layout, .. }: Context<'_>,
     place: usize,
     n: [f64; 6],
     g: [f64; 3],
-    rows: &[Row<N>],
+    rows: &[CollinearityRows<N>],
 ) {
     for (k, (i, j)) in [(0, 0), (1, 0), (2, 0), (1, 1), (2, 1), (2, 2)].into_iter().enumerate() {
         normal.add(place + i, place + j, n[k]);
@@ -151,7 +151,7 @@ fn keep<const N: usize>(
 }
 
 /// Lower triangle of rowsᵀ·rows, counted in the reference diagonal too.
-fn add_own<const C: usize>(normal: &mut Normal, place: usize, length: usize, rows: &[[f64; C]; 2]) {
+fn add_own<const C: usize>(normal: &mut ReducedNormalEquations, place: usize, length: usize, rows: &[[f64; C]; 2]) {
     for i in 0..length {
         for j in 0..=i {
             normal.add(place + i, place + j, rows[0][i] * rows[0][j] + rows[1][i] * rows[1][j]);
@@ -160,7 +160,7 @@ fn add_own<const C: usize>(normal: &mut Normal, place: usize, length: usize, row
 }
 
 /// The point's own elimination: L and h.
-fn factor_point(normal: &mut Normal, block: &PointBlock, point: usize, mut n: [f64; 6], g: [f64; 3]) {
+fn factor_point(normal: &mut ReducedNormalEquations, block: &PointBlock, point: usize, mut n: [f64; 6], g: [f64; 3]) {
     let mut damping = [0.0; 3];
     for a in 0..3 {
         let diagonal = [0, 3, 5][a];
@@ -182,14 +182,14 @@ fn factor_point(normal: &mut Normal, block: &PointBlock, point: usize, mut n: [f
 /// Blocks of an eliminated point's photos, and what goes on to the interior orientations.
 #[inline(never)]
 fn photo_parts<const N: usize>(
-    normal: &mut Normal,
+    normal: &mut ReducedNormalEquations,
     block: &PointBlock,
     point: usize,
-    rows: &[Row<N>],
-    places: &[Place],
-    Parts { columns, reduced, z }: &mut Parts,
+    rows: &[CollinearityRows<N>],
+    places: &[PhotoOffsets],
+    RayEliminations { columns, reduced, z }: &mut RayEliminations,
 ) {
-    let Normal { matrix, rhs, reference, eliminated, .. } = normal;
+    let ReducedNormalEquations { matrix, rhs, reference, eliminated, .. } = normal;
     let factor = &eliminated.factors[point];
     let by_shift = &mut eliminated.by_shift[block.rays.clone()];
     columns.clear();
@@ -210,11 +210,11 @@ fn photo_parts<const N: usize>(
 #[inline(never)]
 fn photo_part<const N: usize>(
     factor: &PointFactor,
-    row: &Row<N>,
+    row: &CollinearityRows<N>,
     z: &mut [[f64; 6]; 3],
     own: &mut [f64],
     (rhs, reference): (&mut [f64], &mut [f64]),
-) -> Reduced {
+) -> ReducedRay {
     let h = &factor.h;
     let b = row.point.map(|a| forward3(&factor.l, a));
     let mut columns = [[0.0; 6]; 3];
@@ -230,20 +230,20 @@ fn photo_part<const N: usize>(
     let e = std::array::from_fn(|s| row.e[s] - (b[s][0] * h[0] + b[s][1] * h[1] + b[s][2] * h[2]));
     add_rows::<true, 2, 6>(rhs, &e, &row.pose);
     add_squares::<2, 6>(reference, &row.pose);
-    Reduced { b, e }
+    ReducedRay { b, e }
 }
 
 /// Blocks of the one interior orientation that nearly always sees a point: with U = CᵀB, CᵀC - UUᵀ = Cᵀ(C - BUᵀ), and
 /// (C - BUᵀ)ᵀG with the photos. Returns U.
 #[inline(never)]
 fn interior_parts<const N: usize>(
-    normal: &mut Normal,
-    rows: &[Row<N>],
-    places: &[Place],
-    reduced: &[Reduced],
+    normal: &mut ReducedNormalEquations,
+    rows: &[CollinearityRows<N>],
+    places: &[PhotoOffsets],
+    reduced: &[ReducedRay],
 ) -> [[f64; N]; 3] {
     let mut u: [[f64; N]; 3] = [[0.0; N]; 3];
-    for (row, Reduced { b, .. }) in rows.iter().zip(reduced) {
+    for (row, ReducedRay { b, .. }) in rows.iter().zip(reduced) {
         for m in 0..3 {
             add_rows::<false, 2, N>(&mut u[m], &[b[0][m], b[1][m]], &row.interior_rows);
         }
@@ -256,9 +256,9 @@ fn interior_parts<const N: usize>(
 
 #[inline(never)]
 fn interior_part<const N: usize>(
-    normal: &mut Normal,
-    row: &Row<N>,
-    Reduced { b, e }: &Reduced,
+    normal: &mut ReducedNormalEquations,
+    row: &CollinearityRows<N>,
+    ReducedRay { b, e }: &ReducedRay,
     at: &Shared,
     u: &[[f64; N]; 3],
 ) {
@@ -276,7 +276,7 @@ fn interior_part<const N: usize>(
 /// -z_i·z_kᵀ for the last z and every one before it, whose columns are given. This is where the time goes; not inlined, or
 /// z_i would not stay in registers.
 #[inline(never)]
-fn subtract_pairs(matrix: &mut TileMatrix, line: Line, columns: &[(u32, u32)], z: &[[[f64; 6]; 3]]) {
+fn subtract_pairs(matrix: &mut TileMatrix, line: TileRow, columns: &[(u32, u32)], z: &[[[f64; 6]; 3]]) {
     let Some((last, before)) = z.split_last() else { return };
     for (column, z) in columns.iter().zip(before) {
         let at = line.at(matrix, *column);
@@ -287,13 +287,13 @@ fn subtract_pairs(matrix: &mut TileMatrix, line: Line, columns: &[(u32, u32)], z
 /// A point seen through several interior orientations: CᵀC of each and CᵀG with its photos, then -U_qᵀU_q' among them and
 /// -U_qᵀZ_i with all photos.
 fn mixed_interiors<const N: usize>(
-    normal: &mut Normal,
+    normal: &mut ReducedNormalEquations,
     layout: &Layout,
     point: usize,
-    rows: &[Row<N>],
-    Parts { reduced, z, .. }: &Parts,
+    rows: &[CollinearityRows<N>],
+    RayEliminations { reduced, z, .. }: &RayEliminations,
 ) {
-    for (row, Reduced { e, .. }) in rows.iter().zip(reduced) {
+    for (row, ReducedRay { e, .. }) in rows.iter().zip(reduced) {
         let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
         let own = normal.matrix.place(interior, interior);
         add_lower::<2, N>(&mut normal.matrix.data_mut()[own..], &row.interior_rows, &row.interior_rows);
@@ -304,7 +304,7 @@ fn mixed_interiors<const N: usize>(
     let own = normal.eliminated.own(point).to_vec();
     let mut sums: Vec<[[f64; N]; 3]> = vec![[[0.0; N]; 3]; own.len()];
     for (n, (own, u)) in own.iter().zip(&mut sums).enumerate() {
-        for (row, Reduced { b, .. }) in rows.iter().zip(reduced).filter(|(row, _)| row.interior == own.interior) {
+        for (row, ReducedRay { b, .. }) in rows.iter().zip(reduced).filter(|(row, _)| row.interior == own.interior) {
             for m in 0..3 {
                 for k in 0..N {
                     u[m][k] += row.interior_rows[0][k] * b[0][m] + row.interior_rows[1][k] * b[1][m];

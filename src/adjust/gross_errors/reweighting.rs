@@ -1,10 +1,10 @@
 //! Robust estimation: weights from standardised residuals until they settle, their scale, and the variance of the result.
 //!
 //! The way begins at what data snooping decides, as that of an MM-estimate does at a solution of high breakdown (V. J.
-//! Yohai 1987): in poorly controlled networks Huber's weights alone are carried away by a wrong observation that holds
+//! Yohai 1987): in poorly controlled networks Huber's weights alone are distorted by a wrong observation that holds
 //! its own place. What stands out there has no weight as long as it stands out.
 
-use crate::adjust::problem::additional::{self, Observed};
+use crate::adjust::problem::additional::{self, AdditionalObservation};
 use crate::adjust::solve::session::{Log, RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
@@ -29,9 +29,9 @@ const LOST: f64 = 1e-3;
 /// Rounds in which observations that are needed are given their weight again.
 const MOST_KEPT: usize = 10;
 
-/// Rounds of least squares in which it is decided what stands out.
+/// Rounds of least squares in which outliers are determined.
 const MOST_DECISIONS: usize = 10;
-/// Less redundancy says nothing of sigma0.
+/// Minimum redundancy for an estimate of sigma0.
 const LEAST_REDUNDANCY: f64 = 0.5;
 
 /// What errors are standardised with: cofactors by which all others predict an observation, in units of its own variance (see
@@ -44,7 +44,7 @@ pub struct Standards {
     pub given: Vec<f64>,
 }
 
-/// What data snooping takes out: per ray and per additional observation.
+/// Observations rejected by data snooping: flags per ray and per additional observation.
 struct Outside {
     rays: Vec<bool>,
     given: Vec<bool>,
@@ -98,7 +98,7 @@ impl Session<'_> {
         kind: Robust,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        (given, own): (&[Observed], &[f64]),
+        (given, own): (&[AdditionalObservation], &[f64]),
         out: &Outside,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
@@ -161,15 +161,15 @@ impl Session<'_> {
         Ok(settled)
     }
 
-    /// sigma0 of least squares without what stands out of the robust solution: residuals of a robust solution are smaller than those
-    /// their redundancy numbers stand for, and the fewer there are the more so. What stands out is decided again with every such
+    /// sigma0 of least squares without the outliers of the robust solution: residuals of a robust solution are smaller than those
+    /// their redundancy numbers stand for, and the fewer there are the more so. Outliers are determined again with every such
     /// solution until it stays the same, always by the robust scale: what is still inside must not widen the limits by which it
     /// is judged. Leaves state and weights as they are.
     fn hard_sigma0(
         &mut self,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        given: &[Observed],
+        given: &[AdditionalObservation],
         own: &[f64],
         standards: &Standards,
         s: f64,
@@ -226,7 +226,7 @@ impl Session<'_> {
     fn decided(
         &self,
         residuals: &[[f64; 2]],
-        given: &[Observed],
+        given: &[AdditionalObservation],
         own: &[f64],
         standards: &Standards,
         s: f64,
@@ -244,7 +244,7 @@ impl Session<'_> {
         of_rays.chain(of_given).collect()
     }
 
-    /// Standardised error of an image coordinate; none where nothing checks it.
+    /// Standardised error of an image coordinate; `None` if nothing checks it.
     pub fn standardised_ray(
         &self,
         residuals: &[[f64; 2]],
@@ -266,7 +266,7 @@ impl Session<'_> {
     ///
     /// # Errors
     /// As [`Self::finish`].
-    pub fn standards(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Standards> {
+    pub fn standards(&mut self, options: &AdjustOptions, given: &[AdditionalObservation]) -> Result<Standards> {
         let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
         let solution = self.finish(&full, false)?;
         let Some(cofactors) = &solution.cofactors else {
@@ -284,7 +284,7 @@ impl Session<'_> {
         cofactors.rays.iter().enumerate().map(of).collect()
     }
 
-    fn predicting(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Vec<f64>> {
+    fn predicting(&mut self, options: &AdjustOptions, given: &[AdditionalObservation]) -> Result<Vec<f64>> {
         if given.is_empty() {
             return Ok(Vec::new());
         }
@@ -296,8 +296,8 @@ impl Session<'_> {
         })
     }
 
-    fn predicting_with(&self, cofactors: &Cofactors, given: &[Observed]) -> Vec<f64> {
-        let of = |(k, observed): (usize, &Observed)| {
+    fn predicting_with(&self, cofactors: &Cofactors, given: &[AdditionalObservation]) -> Vec<f64> {
+        let of = |(k, observed): (usize, &AdditionalObservation)| {
             let factor = self.additional_factors.get(k).copied().unwrap_or(1.0);
             predicting(observed.cofactor(&self.network, cofactors), factor * factor)
         };
@@ -329,7 +329,7 @@ impl Session<'_> {
     fn weigh_given(
         &mut self,
         kind: Robust,
-        (given, own): (&[Observed], &[f64]),
+        (given, own): (&[AdditionalObservation], &[f64]),
         standards: &Standards,
         (kept, out): (&[bool], &[bool]),
         s: f64,
@@ -350,7 +350,7 @@ impl Session<'_> {
     }
 
     /// Observations that have lost their weight and that nothing replaces.
-    fn needed(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Vec<Item>> {
+    fn needed(&mut self, options: &AdjustOptions, given: &[AdditionalObservation]) -> Result<Vec<Item>> {
         let lost = |w: f64| w * w <= LOST;
         let rays = self.weights.iter().flatten().any(|w| lost(*w));
         if !rays && !self.additional_factors.iter().any(|w| lost(*w)) {

@@ -13,7 +13,7 @@
 //! t is the error with which all others predict them (see [`prediction`]), which their own weight does not change.
 //!
 //! The covariance of the estimate is s² E[ψ²]/E[ψ']² (AᵀA)⁻¹ (P. J. Huber, Robust Statistics, 1981, 7.6), ψ(t) = t·factor(t). The
-//! equations at hand are those with weights, E[factor] times as large as AᵀA where nothing is wrong.
+//! present equations are those with weights, E[factor] times as large as AᵀA where nothing is wrong.
 
 use crate::adjustment::Robust;
 
@@ -104,7 +104,7 @@ pub fn scale(standardised: &[f64]) -> f64 {
 }
 
 /// Standardised error with which all other observations predict one: from its weighted residual e = v/σ under the factor p
-/// on its weight and the prediction's cofactor q in units of σ², the error is e(1 + pq), of variance 1 + q. None where the
+/// on its weight and the prediction's cofactor q in units of σ², the error is e(1 + pq), of variance 1 + q. `None` if the
 /// redundancy number 1/(1 + q) is below `testable`.
 pub fn prediction(e: f64, p: f64, q: f64, testable: f64) -> Option<f64> {
     (1.0 / (1.0 + q) > testable).then(|| e * (1.0 + p * q) / (1.0 + q).sqrt())

@@ -1,12 +1,13 @@
 //! The search for gross errors by data snooping ([`super::snooping`]) over observations of every kind, and the record that it
 //! leaves.
 //!
-//! It begins at a robust start ([`super::start`]): what stands out there goes at once, the largest first, and from there on one
+//! It begins at a robust start ([`super::start`]): its outliers are rejected at once, the largest first, and then one
 //! observation a round goes or comes back. Nothing is taken out that the network cannot do without: such an observation is
 //! kept and named.
 
 use crate::adjust::equations::right_hand_side;
-use crate::adjust::problem::additional::{self, LeftOut};
+use crate::adjust::problem::additional;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjust::solve::session::{Log, Session, unsound};
@@ -26,8 +27,8 @@ const NEEDED: f64 = 0.5;
 /// More than this part of all observations is not taken out at once: then it is not single observations that are wrong.
 const MOST_AT_ONCE: f64 = 0.3;
 
-/// Where the search stands.
-struct Search {
+/// State of the search.
+struct GrossErrorSearch {
     items: Vec<Item>,
     /// Reciprocal standard errors of additional observations, 1 for rays.
     own: Vec<f64>,
@@ -41,7 +42,7 @@ struct Search {
     round: usize,
 }
 
-impl Search {
+impl GrossErrorSearch {
     fn redundancy(&self) -> usize {
         let lost = |(item, _): (&Item, _)| if matches!(item, Item::Ray(_)) { 2 } else { 1 };
         self.all.saturating_sub(self.items.iter().zip(&self.out).filter(|(_, out)| out.is_some()).map(lost).sum())
@@ -52,7 +53,7 @@ impl Session<'_> {
     /// Weighted residuals of the image coordinates, without robust factors.
     ///
     /// # Errors
-    /// [`crate::Error::Invalid`] where a point has no image.
+    /// [`crate::Error::Invalid`] if a point has no image.
     pub fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
         right_hand_side::weighted_residuals(self.context(options.residuals)).ok_or_else(unsound)
     }
@@ -86,7 +87,7 @@ impl Session<'_> {
         &mut self,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        left_out: &mut LeftOut,
+        left_out: &mut RejectedObservations,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
         let (out, ended) = self.searched(options, log, record)?;
@@ -99,7 +100,7 @@ impl Session<'_> {
         Ok(ended)
     }
 
-    /// What data snooping takes out, for robust weights to begin with; nothing where it comes to no end. The session keeps
+    /// Observations rejected by data snooping, as the start of robust weights; none if it does not converge. The session keeps
     /// its weights, and the values of the solution without these.
     pub fn standing_out(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Vec<Item> {
         let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.additional_factors.clone());
@@ -119,7 +120,7 @@ impl Session<'_> {
         }
     }
 
-    /// What the search takes out, and whether it came to an end; weights are the observations' own again.
+    /// Observations rejected by the search, and whether it converged; the weights are restored.
     fn searched(
         &mut self,
         options: &AdjustOptions,
@@ -143,7 +144,7 @@ impl Session<'_> {
         &mut self,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        search: &mut Search,
+        search: &mut GrossErrorSearch,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
         let first = self.stand_out(options, search)?;
@@ -163,7 +164,7 @@ impl Session<'_> {
     }
 
     /// A search that has found nothing yet, after a robust start.
-    fn search(&self) -> Search {
+    fn search(&self) -> GrossErrorSearch {
         let items = items(&self.network);
         // The start's factors are in the weights of additional observations.
         let mut factors = self.additional_factors.iter();
@@ -173,7 +174,7 @@ impl Session<'_> {
         });
         let own: Vec<f64> = own.collect();
         let n = items.len();
-        Search {
+        GrossErrorSearch {
             items,
             own,
             out: vec![None; n],
@@ -184,8 +185,8 @@ impl Session<'_> {
         }
     }
 
-    /// What stands out of the robust start, largest statistic first: the error with which all others predict it.
-    fn stand_out(&mut self, options: &AdjustOptions, search: &Search) -> Result<Vec<(usize, f64, f64)>> {
+    /// Outliers of the robust start, the largest statistic first, from the error of the prediction by all others.
+    fn stand_out(&mut self, options: &AdjustOptions, search: &GrossErrorSearch) -> Result<Vec<(usize, f64, f64)>> {
         let Some(limit) = critical_t(search.all) else { return Ok(Vec::new()) };
         let weights = self.weights.clone();
         let solution = self.finish(&full(options), false)?;
@@ -234,12 +235,12 @@ impl Session<'_> {
     }
 
     /// Takes the first ones out and gives all others their own weight; where that leads to no solution nothing is out.
-    /// Returns false where not even that does.
+    /// Returns false if not even that does.
     fn take_out_at_once(
         &mut self,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        search: &mut Search,
+        search: &mut GrossErrorSearch,
         first: Vec<(usize, f64, f64)>,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
@@ -272,10 +273,10 @@ impl Session<'_> {
         Ok(self.iterate(options, log)? == Termination::Converged)
     }
 
-    /// Takes an item out with what goes with it; false where a photo would keep too little.
+    /// Takes an item out with what goes with it; false if a photo would keep too little.
     fn take_out(
         &mut self,
-        search: &mut Search,
+        search: &mut GrossErrorSearch,
         item: usize,
         (statistic, limit): (f64, f64),
         record: &mut Vec<GrossError>,
@@ -295,7 +296,13 @@ impl Session<'_> {
     }
 
     /// Names an item that the network cannot do without.
-    fn keep(&mut self, search: &mut Search, item: usize, (statistic, limit): (f64, f64), record: &mut Vec<GrossError>) {
+    fn keep(
+        &mut self,
+        search: &mut GrossErrorSearch,
+        item: usize,
+        (statistic, limit): (f64, f64),
+        record: &mut Vec<GrossError>,
+    ) {
         search.settled[item] = true;
         search.out[item] = None;
         self.weigh(search.items[item], search.own[item], 1.0);
@@ -308,7 +315,7 @@ impl Session<'_> {
         &mut self,
         options: &AdjustOptions,
         log: &mut Log<'_>,
-        search: &mut Search,
+        search: &mut GrossErrorSearch,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
         for round in 1..=MOST_ROUNDS {
@@ -372,7 +379,7 @@ impl Session<'_> {
         Ok(false)
     }
 
-    fn tests(&self, options: &AdjustOptions, search: &Search, cofactors: &Cofactors) -> Result<Vec<Tests>> {
+    fn tests(&self, options: &AdjustOptions, search: &GrossErrorSearch, cofactors: &Cofactors) -> Result<Vec<Tests>> {
         let residuals = self.residuals(options)?;
         let one = |(item, own): (&Item, &f64)| match item {
             Item::Ray(ray) => [0, 1].map(|s| Some((residuals[*ray][s], cofactors.rays[*ray][s]))),
@@ -397,7 +404,7 @@ impl Session<'_> {
     ///
     /// # Errors
     /// As [`Session::new`], with everything in.
-    pub fn without_found(&self, left_out: &mut LeftOut, record: &mut Vec<GrossError>) -> Result<Self> {
+    pub fn without_found(&self, left_out: &mut RejectedObservations, record: &mut Vec<GrossError>) -> Result<Self> {
         loop {
             match self.without(left_out) {
                 Ok(session) => return Ok(session),
@@ -432,8 +439,8 @@ impl Session<'_> {
     }
 }
 
-/// What stands out as advice.
-pub fn told(project: &Project, network: &Network, suspects: &[(Item, f64)]) -> Option<Advice> {
+/// Advice about suspected observations; `None` without any.
+pub fn suspicion(project: &Project, network: &Network, suspects: &[(Item, f64)]) -> Option<Advice> {
     let (mut observations, mut given) = (Vec::new(), Vec::new());
     for (item, statistic) in suspects {
         match item {
@@ -449,7 +456,7 @@ pub fn told(project: &Project, network: &Network, suspects: &[(Item, f64)]) -> O
 }
 
 /// Whether all rays of the item's point are out: the point is gone, and nothing needs them.
-fn lost_with_its_point(network: &Network, search: &Search, item: usize) -> bool {
+fn lost_with_its_point(network: &Network, search: &GrossErrorSearch, item: usize) -> bool {
     let Item::Ray(ray) = search.items[item] else { return false };
     // Rays are numbered as in the network.
     let point = network.points.iter().find(|p| p.rays.contains(&ray));

@@ -3,11 +3,11 @@
 //! Observations of every kind are tested alike: image coordinates (both of a ray together), control coordinates, observed
 //! projection centres, distances and observed parameters. The test statistic is Pope's τ, e/(σ0 √r_i), with σ0 from the
 //! adjustment, since the a priori standard errors of real images are seldom right (A. J. Pope 1976). Observations taken
-//! out stay in the equations with a vanishing weight, so that their prediction error e/(σ0 √(1 + q)) is at hand: they come
+//! out stay in the equations with a vanishing weight, so that their prediction error e/(σ0 √(1 + q)) is available: they come
 //! back when it is below the limit of Student's t, since σ0 is one they have no part in. With little redundancy that one
 //! is far wider than τ's, and what chance has taken out would else never return.
 
-use crate::adjust::problem::additional::{self, Observed};
+use crate::adjust::problem::additional::{self, AdditionalObservation};
 use crate::adjust::problem::network::Network;
 use crate::statistics::distribution::{critical_t, critical_tau};
 
@@ -26,13 +26,13 @@ const UNPREDICTED: f64 = 0.01;
 /// Redundancy numbers below this leave nothing to test.
 pub const TESTABLE: f64 = 1e-3;
 
-/// What is tested and taken out as one.
+/// Observations that are tested and rejected as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Item {
     /// A ray: two image coordinates.
     Ray(usize),
     /// An observation of another kind.
-    Additional(Observed),
+    Additional(AdditionalObservation),
 }
 
 /// All items of a network, rays first.
@@ -45,7 +45,7 @@ pub fn items(network: &Network) -> Vec<Item> {
 /// cofactor of the weighted adjusted observation.
 pub type Tests = [Option<(f64, f64)>; 2];
 
-/// What one round decides.
+/// Decisions of one round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decision {
     /// Take this item out.
@@ -82,7 +82,7 @@ pub fn decide(tests: &[Tests], removed: &[Option<f64>], settled: &[bool], redund
             tests.iter().flatten().filter_map(|test| one(*test)).fold(0.0, f64::max)
         };
         if let Some(vanishing) = removed[item] {
-            // What nothing else predicts agrees with itself: that says nothing, and it stays out.
+            // An observation that no other predicts agrees only with itself, so it stays rejected.
             if tests.iter().flatten().any(|(_, q)| *q > UNPREDICTED) {
                 continue;
             }
@@ -107,7 +107,7 @@ pub fn decide(tests: &[Tests], removed: &[Option<f64>], settled: &[bool], redund
     }
 }
 
-/// Items to take out together with `item`, itself first: a point left with a single ray loses that too. None when a photo
+/// Items to take out together with `item`, itself first: a point left with a single ray loses that too. `None` if a photo
 /// would be left with fewer than three points. What no other observation determines has a redundancy number of 0 and is
 /// never asked for.
 pub fn consequences(network: &Network, items: &[Item], removed: &[Option<f64>], item: usize) -> Option<Vec<usize>> {
@@ -116,7 +116,7 @@ pub fn consequences(network: &Network, items: &[Item], removed: &[Option<f64>], 
     let at = network.points.iter().position(|p| p.rays.contains(&ray))?;
     let point = &network.points[at];
     let known = |a: usize| {
-        let own = items.iter().position(|item| *item == Item::Additional(Observed::Control(at, a)));
+        let own = items.iter().position(|item| *item == Item::Additional(AdditionalObservation::Control(at, a)));
         point.fixed[a] || own.is_some_and(|k| removed[k].is_none())
     };
     let others: Vec<usize> = point.rays.clone().filter(|r| *r != ray && removed[*r].is_none()).collect();

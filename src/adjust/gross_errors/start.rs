@@ -1,8 +1,8 @@
 //! A robust start: weights that follow the residuals while the iteration is still on its way, so that a gross error can neither
-//! stop it nor carry it away.
+//! stop it nor distort it.
 //!
 //! Every few steps the weights are set anew from the errors with which all others predict each observation, at first by Huber's
-//! function, whose way has one end, then by Tukey's, which forgets what is far off. The scale is that of the errors at hand, so
+//! function, which has a single minimum, then by Tukey's, which ignores large residuals. The scale is that of the present errors, so
 //! that poor initial values, which make all of them large, weigh nothing down.
 
 use crate::adjust::problem::additional;
@@ -18,18 +18,18 @@ const ROUNDS: [(Robust, usize); 2] = [(Robust::Huber, 15), (Robust::Tukey, 10)];
 const STEPS: usize = 4;
 /// Weights that change less are settled.
 const SETTLED: f64 = 0.02;
-/// Least square root of a factor: what is weighed down goes on holding what nothing else holds.
+/// Minimum square root of a factor: a downweighted observation must still determine unknowns that no other one determines.
 pub const LEAST: f64 = 1e-3;
-/// Most that an observation so weighed down still pulls, in standard errors.
+/// Maximum influence of an observation downweighted in this way, in standard errors.
 const PULL: f64 = 0.1;
 
-/// Least square root of the factor of an observation off by t standard errors.
+/// Minimum square root of the factor of an observation off by t standard errors.
 pub fn least(t: f64) -> f64 {
     LEAST.min(PULL / t.abs())
 }
 
 impl Session<'_> {
-    /// Iterates to a state that gross errors have not carried away, and leaves the robust weights set. Where the network does not
+    /// Iterates to a state that gross errors have not distorted, and leaves the robust weights set. Where the network does not
     /// come to rest that way it is iterated without them, from its initial values.
     ///
     /// # Errors

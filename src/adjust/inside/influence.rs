@@ -15,7 +15,7 @@ use crate::adjustment::{AdjustOptions, Adjustment, StatisticsChoice};
 use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Parameter, Project};
 
-use super::linear_system::{Columns, Equation, of_session};
+use super::linear_system::{Columns, Equation, RowNames, of_session};
 use super::sparse::SparseMatrix;
 use super::stepping::with_session;
 
@@ -25,7 +25,7 @@ const HELD: f64 = 1e-9;
 
 /// An adjusted quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Quantity {
+pub(crate) enum AdjustedQuantity {
     /// Coordinate of an object point.
     Point(String, usize),
     /// Coordinate of a projection centre.
@@ -59,32 +59,34 @@ impl Influences {
     }
 }
 
-/// Where a quantity is in the network; none where it is given or takes no part.
+/// Indices of a quantity in the network.
 #[derive(Clone, Copy)]
-enum Found {
+enum QuantityPlace {
     Point(usize, usize),
     Centre(usize, usize),
     Parameter(usize, usize),
 }
 
-fn found(session: &Session<'_>, quantities: &[Quantity]) -> Vec<Option<Found>> {
+fn found(session: &Session<'_>, quantities: &[AdjustedQuantity]) -> Vec<Option<QuantityPlace>> {
     let (project, network) = (session.project, &session.network);
     let named = |index: usize| project.photos[index].id.as_str();
     let points: HashMap<&str, usize> =
         network.points.iter().enumerate().map(|(k, p)| (project.points[p.index].id.as_str(), k)).collect();
     let photos: HashMap<&str, usize> = network.photos.iter().enumerate().map(|(k, p)| (named(p.index), k)).collect();
-    let one = |quantity: &Quantity| match quantity {
-        Quantity::Point(id, axis) => {
+    let one = |quantity: &AdjustedQuantity| match quantity {
+        AdjustedQuantity::Point(id, axis) => {
             let point = *points.get(id.as_str())?;
-            (!network.points[point].fixed[*axis]).then_some(Found::Point(point, *axis))
+            (!network.points[point].fixed[*axis]).then_some(QuantityPlace::Point(point, *axis))
         }
-        Quantity::Centre(id, axis) => Some(Found::Centre(*photos.get(id.as_str())?, *axis)),
-        Quantity::Parameter(camera, photo, parameter) => network.interiors.iter().enumerate().find_map(|(k, block)| {
-            let own = block.photo.map(|p| named(network.photos[p].index));
-            let same = project.cameras[block.camera].id == *camera && own == photo.as_deref();
-            let at = block.estimated.iter().position(|e| same && e.parameter == *parameter)?;
-            Some(Found::Parameter(k, at))
-        }),
+        AdjustedQuantity::Centre(id, axis) => Some(QuantityPlace::Centre(*photos.get(id.as_str())?, *axis)),
+        AdjustedQuantity::Parameter(camera, photo, parameter) => {
+            network.interiors.iter().enumerate().find_map(|(k, block)| {
+                let own = block.photo.map(|p| named(network.photos[p].index));
+                let same = project.cameras[block.camera].id == *camera && own == photo.as_deref();
+                let at = block.estimated.iter().position(|e| same && e.parameter == *parameter)?;
+                Some(QuantityPlace::Parameter(k, at))
+            })
+        }
     };
     quantities.iter().map(one).collect()
 }
@@ -92,9 +94,13 @@ fn found(session: &Session<'_>, quantities: &[Quantity]) -> Vec<Option<Found>> {
 /// Influences of the observations that took part in an adjustment on quantities, in the project's units.
 ///
 /// # Errors
-/// [`Reason::EquationsOfAnother`] where the equations of the document do not repeat the adjustment's covariances: after robust estimation,
+/// [`Reason::EquationsOfAnother`] if the equations of the document do not repeat the adjustment's covariances: after robust estimation,
 /// with variance components, for an adjustment of another document, without standard errors. As [`crate::adjust::adjust`].
-pub(crate) fn influences(project: &Project, adjustment: &Adjustment, quantities: &[Quantity]) -> Result<Influences> {
+pub(crate) fn influences(
+    project: &Project,
+    adjustment: &Adjustment,
+    quantities: &[AdjustedQuantity],
+) -> Result<Influences> {
     let another = || Error::Invalid { reason: Reason::EquationsOfAnother, at: Place::default() };
     let mut applied = apply(project, adjustment);
     if applied.observations.len() != adjustment.observations.len() || adjustment.options.robust.is_some() {
@@ -110,14 +116,14 @@ pub(crate) fn influences(project: &Project, adjustment: &Adjustment, quantities:
         session.adopt(adjustment);
         session.shift = eccentric::shifts(session.project, &session.network, &session.state);
         session.finish(&options, false)?;
-        let system = of_session(&session, &options)?;
+        let system = of_session(&session, &options, RowNames::Given)?;
         let (solved, cofactors) = solved(&session, quantities, system.unknowns.len())?;
         let stated: HashMap<&str, [f64; 6]> =
             adjustment.points.iter().filter_map(|p| Some((p.id.as_str(), p.covariance?))).collect();
-        let points = || quantities.iter().zip(&cofactors).filter(|(q, _)| matches!(q, Quantity::Point(..)));
+        let points = || quantities.iter().zip(&cofactors).filter(|(q, _)| matches!(q, AdjustedQuantity::Point(..)));
         let least = HELD * points().map(|(_, cofactor)| *cofactor).fold(0.0, f64::max);
         let factors = points().filter_map(|(quantity, cofactor)| {
-            let Quantity::Point(id, axis) = quantity else { return None };
+            let AdjustedQuantity::Point(id, axis) = quantity else { return None };
             let variance = stated.get(id.as_str())?[[0, 3, 5][*axis]];
             (*cofactor > least).then(|| variance / cofactor)
         });
@@ -144,7 +150,7 @@ pub(crate) fn influences(project: &Project, adjustment: &Adjustment, quantities:
 }
 
 /// Q Sᵀe in the scaled unknowns for quantities in their own units, a row an unknown, and the cofactors of the quantities.
-fn solved(session: &Session<'_>, quantities: &[Quantity], unknowns: usize) -> Result<(Vec<f64>, Vec<f64>)> {
+fn solved(session: &Session<'_>, quantities: &[AdjustedQuantity], unknowns: usize) -> Result<(Vec<f64>, Vec<f64>)> {
     let (network, state) = (&session.network, &session.state);
     let (normal, layout) = session.factored();
     let constraint = session.constraint()?;
@@ -156,18 +162,18 @@ fn solved(session: &Session<'_>, quantities: &[Quantity], unknowns: usize) -> Re
         let Some(place) = place else { continue };
         let mut e = Full::zeros(network, layout);
         let scale = match place {
-            Found::Point(point, axis) => {
+            QuantityPlace::Point(point, axis) => {
                 e.add_at_point(layout, point, axis, 1.0);
                 session.subtract_datum(&mut e, constraint.as_ref(), &at_point(&state.points[point])[axis], 1.0);
                 network.frame.scale
             }
-            Found::Centre(photo, axis) => {
+            QuantityPlace::Centre(photo, axis) => {
                 e.reduced[layout.photo[photo] + 3 + axis] += 1.0;
                 let direction = at_point(&state.poses[photo].centre)[axis];
                 session.subtract_datum(&mut e, constraint.as_ref(), &direction, 1.0);
                 network.frame.scale
             }
-            Found::Parameter(interior, k) => {
+            QuantityPlace::Parameter(interior, k) => {
                 e.reduced[layout.interior[interior] + k] += 1.0;
                 network.interiors[interior].estimated[k].scale
             }

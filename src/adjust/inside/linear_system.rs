@@ -21,7 +21,7 @@ use crate::adjust::datum::free::FreeDatum;
 use crate::adjust::equations::collinearity::Linearisation;
 use crate::adjust::equations::context::Context;
 use crate::adjust::equations::normal::with_interior_size;
-use crate::adjust::problem::additional::{self, Observed, distance_row};
+use crate::adjust::problem::additional::{self, AdditionalObservation, distance_row};
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::rig::Member;
@@ -65,7 +65,7 @@ pub struct Unknown {
     pub value: f64,
     /// Unit of the value.
     pub unit: String,
-    /// What one unit of the engine's own, scaled unknown is: the scaled matrix is A with its columns multiplied by this.
+    /// Size of one unit of the engine's scaled unknown: the scaled matrix is A with its columns multiplied by this.
     pub scale: f64,
 }
 
@@ -121,8 +121,26 @@ pub struct LinearSystem {
 pub fn linearise(project: &Project, options: &AdjustOptions) -> Result<LinearSystem> {
     super::stepping::with_session(project, options, |mut session| {
         session.shift = eccentric::shifts(session.project, &session.network, &session.state);
-        of_session(&session, options)
+        of_session(&session, options, RowNames::Given)
     })
+}
+
+/// Whether rows, columns and blocks are built with their names, which are the same after every step and take longer than the numbers.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum RowNames {
+    Given,
+    /// Names and units are empty.
+    Omitted,
+}
+
+impl RowNames {
+    pub fn text(self, name: impl FnOnce() -> String) -> String {
+        if self == Self::Given { name() } else { String::new() }
+    }
+
+    fn id(self, id: &str) -> Option<String> {
+        (self == Self::Given).then(|| id.to_owned())
+    }
 }
 
 /// First column of every block, and the columns of points, which have none for a fixed axis.
@@ -134,7 +152,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Photos, interior orientations, points, as they stand in the network.
+    /// Photos, interior orientations, points, in the order of the network.
     pub fn new(network: &Network) -> Self {
         let mut count = 0;
         let mut next = |length: usize| {
@@ -162,15 +180,15 @@ impl Columns {
 }
 
 /// The equations of a session.
-pub(super) fn of_session(session: &Session<'_>, options: &AdjustOptions) -> Result<LinearSystem> {
+pub(super) fn of_session(session: &Session<'_>, options: &AdjustOptions, names: RowNames) -> Result<LinearSystem> {
     let (project, network) = (session.project, &session.network);
     let columns = Columns::new(network);
-    let unknowns = unknowns(session);
+    let unknowns = unknowns(session, names);
     let context = session.context(options.residuals);
-    let mut rows = with_interior_size!(network, image_rows(context, &columns, project)).ok_or_else(unsound)?;
+    let mut rows = with_interior_size!(network, image_rows(context, &columns, project, names)).ok_or_else(unsound)?;
     // In the document's order.
     rows.sort_by_key(|row| row.0);
-    let mut rows: Vec<Row> = rows.into_iter().map(|row| row.1).collect();
+    let mut rows: Vec<EquationRow> = rows.into_iter().map(|row| row.1).collect();
     rows.extend(additional::all(network).into_iter().map(|observed| additional_row(session, &columns, observed)));
     network.rig.iter().for_each(|member| rows.extend(rig_rows(session, &columns, member)));
     let constraints = session.datum.as_ref().map_or_else(Vec::new, |datum| constraints(session, datum, &columns));
@@ -189,13 +207,13 @@ pub(super) fn of_session(session: &Session<'_>, options: &AdjustOptions) -> Resu
 }
 
 /// An observation with its coefficients.
-struct Row {
+struct EquationRow {
     equation: Equation,
     a: Vec<(usize, f64)>,
     l: f64,
 }
 
-fn unknowns(session: &Session<'_>) -> Vec<Unknown> {
+fn unknowns(session: &Session<'_>, names: RowNames) -> Vec<Unknown> {
     let (project, network, state) = (session.project, &session.network, &session.state);
     let length = &project.unit;
     let mut all = Vec::new();
@@ -204,34 +222,36 @@ fn unknowns(session: &Session<'_>) -> Vec<Unknown> {
         let of = |name: String, kind, value, unit: &str, scale| Unknown {
             name,
             kind,
-            photo: Some(id.clone()),
+            photo: names.id(id),
             camera: None,
             point: None,
             value,
-            unit: unit.to_owned(),
+            unit: names.text(|| unit.to_owned()),
             scale,
         };
         all.extend(
-            ["x", "y", "z"].map(|axis| of(format!("{id} rotation {axis}"), UnknownKind::Rotation, 0.0, "rad", 1.0)),
+            ["x", "y", "z"]
+                .map(|axis| of(names.text(|| format!("{id} rotation {axis}")), UnknownKind::Rotation, 0.0, "rad", 1.0)),
         );
         let centre = network.frame.outside(pose.centre);
         all.extend(AXES.iter().zip(centre).map(|(axis, value)| {
-            of(format!("{id} {axis}"), UnknownKind::ProjectionCentre, value, length, network.frame.scale)
+            let name = names.text(|| format!("{id} {axis}"));
+            of(name, UnknownKind::ProjectionCentre, value, length, network.frame.scale)
         }));
     }
     for (block, interior) in network.interiors.iter().zip(&state.interiors) {
         let camera = &project.cameras[block.camera];
-        let photo = block.photo.map(|photo| project.photos[network.photos[photo].index].id.clone());
+        let photo = block.photo.map(|photo| &project.photos[network.photos[photo].index].id);
         for estimated in &block.estimated {
-            let of = photo.as_ref().unwrap_or(&camera.id);
+            let of = photo.unwrap_or(&camera.id);
             all.push(Unknown {
-                name: format!("{of} {}", estimated.parameter.name()),
+                name: names.text(|| format!("{of} {}", estimated.parameter.name())),
                 kind: UnknownKind::InteriorOrientation,
-                photo: photo.clone(),
-                camera: Some(camera.id.clone()),
+                photo: photo.and_then(|photo| names.id(photo)),
+                camera: names.id(&camera.id),
                 point: None,
                 value: interior.get(estimated.parameter).unwrap_or_default(),
-                unit: parameter_unit(camera, estimated.parameter),
+                unit: names.text(|| parameter_unit(camera, estimated.parameter)),
                 scale: estimated.scale,
             });
         }
@@ -240,13 +260,13 @@ fn unknowns(session: &Session<'_>) -> Vec<Unknown> {
         let id = &project.points[block.index].id;
         let xyz = network.frame.outside(*x);
         all.extend((0..3).filter(|axis| !block.fixed[*axis]).map(|axis| Unknown {
-            name: format!("{id} {}", AXES[axis]),
+            name: names.text(|| format!("{id} {}", AXES[axis])),
             kind: UnknownKind::Point,
             photo: None,
             camera: None,
-            point: Some(id.clone()),
+            point: names.id(id),
             value: xyz[axis],
-            unit: length.clone(),
+            unit: names.text(|| length.clone()),
             scale: network.frame.scale,
         }));
     }
@@ -260,7 +280,8 @@ fn image_rows<const N: usize>(
     context: Context<'_>,
     columns: &Columns,
     project: &Project,
-) -> Option<Vec<((usize, usize), Row)>> {
+    names: RowNames,
+) -> Option<Vec<((usize, usize), EquationRow)>> {
     let Context { network, weighting, .. } = context;
     let linearisation = Linearisation::<N>::new(context)?;
     let scale = network.frame.scale;
@@ -287,23 +308,23 @@ fn image_rows<const N: usize>(
                 }
                 let axis = ["x", "y"][side];
                 let equation = Equation {
-                    name: format!("{} {} {axis}", observation.photo, observation.point),
-                    photo: Some(observation.photo.clone()),
-                    point: Some(observation.point.clone()),
+                    name: names.text(|| format!("{} {} {axis}", observation.photo, observation.point)),
+                    photo: names.id(&observation.photo),
+                    point: names.id(&observation.point),
                     given: None,
-                    axis: Some(axis.to_owned()),
+                    axis: names.id(axis),
                     value: ray.measured[side] - weighting.shift.get(k).map_or(0.0, |shift| shift[side]),
                     sigma: 1.0 / weight,
-                    unit: photo_unit(camera).to_owned(),
+                    unit: names.text(|| photo_unit(camera).to_owned()),
                 };
-                all.push(((ray.row, side), Row { equation, a, l: -row.e[side] / weight }));
+                all.push(((ray.row, side), EquationRow { equation, a, l: -row.e[side] / weight }));
             }
         }
     }
     Some(all)
 }
 
-fn additional_row(session: &Session<'_>, columns: &Columns, observed: Observed) -> Row {
+fn additional_row(session: &Session<'_>, columns: &Columns, observed: AdditionalObservation) -> EquationRow {
     let (project, network, state) = (session.project, &session.network, &session.state);
     let unit = observed.unit(network);
     let length = || project.unit.clone();
@@ -311,20 +332,20 @@ fn additional_row(session: &Session<'_>, columns: &Columns, observed: Observed) 
     let outside = |axis: usize, inside: f64| inside * network.frame.scale + network.frame.offset[axis];
     let (mut photo, mut point, mut axis) = (None, None, None);
     let (name, a, value, of) = match observed {
-        Observed::Control(k, n) => {
+        AdditionalObservation::Control(k, n) => {
             let id = &project.points[network.points[k].index].id;
             (point, axis) = (Some(id.clone()), Some(AXES[n].to_owned()));
             let column = columns.point[k][n];
             let a = column.map(|column| (column, 1.0)).into_iter().collect();
             (format!("{id} {}", AXES[n]), a, outside(n, network.points[k].prior[n].0), length())
         }
-        Observed::Position(k, n) => {
+        AdditionalObservation::Position(k, n) => {
             let id = &project.photos[network.photos[k].index].id;
             (photo, axis) = (Some(id.clone()), Some(AXES[n].to_owned()));
             let a = vec![(columns.photo(k).start + 3 + n, 1.0)];
             (format!("{id} {}", AXES[n]), a, outside(n, network.photos[k].prior[n].0), length())
         }
-        Observed::Distance(k) => {
+        AdditionalObservation::Distance(k) => {
             let bar = &network.bars[k];
             let distance = &project.distances[bar.index];
             // Weighted, between coordinates and lengths of the same scale.
@@ -333,7 +354,7 @@ fn additional_row(session: &Session<'_>, columns: &Columns, observed: Observed) 
             let a = ends.zip(rows).filter_map(|(column, slope)| Some(((*column)?, slope / bar.sqrt_weight))).collect();
             (format!("{} - {}", distance.from, distance.to), a, distance.length, length())
         }
-        Observed::Parameter(k, n) => {
+        AdditionalObservation::Parameter(k, n) => {
             let block = &network.interiors[k];
             let camera = &project.cameras[block.camera];
             let estimated = &block.estimated[n];
@@ -345,12 +366,12 @@ fn additional_row(session: &Session<'_>, columns: &Columns, observed: Observed) 
     };
     let sigma = unit / observed.sqrt_weight(network);
     let l = -observed.residual(network, state) * unit;
-    Row { equation: Equation { name, photo, point, given: Some(given), axis, value, sigma, unit: of }, a, l }
+    EquationRow { equation: Equation { name, photo, point, given: Some(given), axis, value, sigma, unit: of }, a, l }
 }
 
 /// The relative poses of a rig's camera, without unknowns of their own: exposure k minus the mean of those before it, times
 /// √(k / (k + 1)), has the standard error of one exposure and nothing in common with the others (Helmert's contrasts).
-fn rig_rows(session: &Session<'_>, columns: &Columns, member: &Member) -> Vec<Row> {
+fn rig_rows(session: &Session<'_>, columns: &Columns, member: &Member) -> Vec<EquationRow> {
     let (network, state) = (&session.network, &session.state);
     let mean = member.mean(state);
     let id = |photo: usize| &session.project.photos[network.photos[photo].index].id;
@@ -384,7 +405,7 @@ fn rig_rows(session: &Session<'_>, columns: &Columns, member: &Member) -> Vec<Ro
                 sigma: scale / member.sqrt_weight[row / 3],
                 unit: if row < 3 { "rad".to_owned() } else { session.project.unit.clone() },
             };
-            rows.push(Row { equation, a: a.into_iter().collect(), l });
+            rows.push(EquationRow { equation, a: a.into_iter().collect(), l });
         }
     }
     rows

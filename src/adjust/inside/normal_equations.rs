@@ -8,10 +8,10 @@
 //! with r the photos, interior orientations and points tied by a distance, p all other points. N_pp has a 3 x 3 block a point. Without
 //! control N is singular by its datum defect; its null space are the movements of the object that no observation sees.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::linear_system::{Columns, LinearSystem, of_session};
+use super::linear_system::{Columns, LinearSystem, RowNames, of_session};
 use super::sparse::SparseMatrix;
 use crate::adjust::datum::free::{at_photo, at_point};
 use crate::adjust::problem::eccentric;
@@ -21,7 +21,7 @@ use crate::adjustment::AdjustOptions;
 use crate::error::Result;
 use crate::project::Project;
 
-/// What a block of unknowns belongs to.
+/// The object to which a block of unknowns belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BlockKind {
@@ -61,7 +61,7 @@ pub struct Reduced {
 }
 
 /// Entries of the lower triangle, diagonal included, that differ from zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FillIn {
     /// Of N.
     pub matrix: usize,
@@ -109,7 +109,7 @@ pub struct NormalEquations {
 pub fn normal_equations(project: &Project, options: &AdjustOptions) -> Result<NormalEquations> {
     super::stepping::with_session(project, options, |mut session| {
         session.shift = eccentric::shifts(session.project, &session.network, &session.state);
-        let system = of_session(&session, options)?;
+        let system = of_session(&session, options, RowNames::Given)?;
         of_system(&session, options, &system)
     })
 }
@@ -121,11 +121,8 @@ pub(super) fn of_system(
     system: &LinearSystem,
 ) -> Result<NormalEquations> {
     let network = &session.network;
-    let columns = Columns::new(network);
-    let blocks = blocks(session, &columns);
-    let n = system.a.normal(&system.p);
-    let b = system.a.transposed_times(&system.p, &system.l);
-    let reduced = reduced(&blocks, &n, &b)?;
+    let mut normal = numbers_of_system(session, system, RowNames::Given)?;
+    let blocks = &normal.blocks;
     let layout = session.context(options.residuals).layout;
     let mut order: Vec<usize> = (0..blocks.len()).filter(|k| blocks[*k].eliminated).collect();
     let mut kept: Vec<usize> = (0..blocks.len()).filter(|k| !blocks[*k].eliminated).collect();
@@ -137,35 +134,53 @@ pub(super) fn of_system(
     });
     order.extend(kept);
     let natural: Vec<usize> = (0..blocks.len()).collect();
-    let neighbours = neighbours(&blocks, &n);
-    let fill_in = FillIn {
+    let n = &normal.n;
+    let neighbours = neighbours(blocks, n);
+    normal.fill_in = FillIn {
         matrix: (0..n.rows).map(|row| n.row(row).filter(|(column, _)| *column <= row).count()).sum(),
-        factor: factor_entries(&blocks, &neighbours, &order),
-        factor_photos_first: factor_entries(&blocks, &neighbours, &natural),
+        factor: factor_entries(blocks, &neighbours, &order),
+        factor_photos_first: factor_entries(blocks, &neighbours, &natural),
     };
-    let null_space = null_space(session, &columns);
-    let rank = columns.count - null_space.len();
-    Ok(NormalEquations { blocks, n, b, reduced, elimination_order: order, fill_in, rank, null_space })
+    normal.elimination_order = order;
+    Ok(normal)
 }
 
-fn blocks(session: &Session<'_>, columns: &Columns) -> Vec<Block> {
+/// The same without order of elimination and fill-in, which follow from the places of the entries and take longer than their values.
+pub(super) fn numbers_of_system(
+    session: &Session<'_>,
+    system: &LinearSystem,
+    names: RowNames,
+) -> Result<NormalEquations> {
+    let columns = Columns::new(&session.network);
+    let blocks = blocks(session, &columns, names);
+    let n = system.a.normal(&system.p);
+    let b = system.a.transposed_times(&system.p, &system.l);
+    let reduced = reduced(&blocks, &n, &b)?;
+    let null_space = null_space(session, &columns);
+    let rank = columns.count - null_space.len();
+    let (elimination_order, fill_in) = (Vec::new(), FillIn::default());
+    Ok(NormalEquations { blocks, n, b, reduced, elimination_order, fill_in, rank, null_space })
+}
+
+fn blocks(session: &Session<'_>, columns: &Columns, names: RowNames) -> Vec<Block> {
     let (project, network) = (session.project, &session.network);
     let photo_id = |k: usize| &project.photos[network.photos[k].index].id;
     let mut blocks = Vec::new();
     for k in 0..network.photos.len() {
         let first = columns.photo(k).start;
-        blocks.push(Block { name: photo_id(k).clone(), kind: BlockKind::Photo, first, size: 6, eliminated: false });
+        let name = names.text(|| photo_id(k).clone());
+        blocks.push(Block { name, kind: BlockKind::Photo, first, size: 6, eliminated: false });
     }
     for (k, block) in network.interiors.iter().enumerate() {
         let columns = columns.interior(network, k);
-        let name = block.photo.map_or(&project.cameras[block.camera].id, photo_id);
+        let name = names.text(|| block.photo.map_or(&project.cameras[block.camera].id, photo_id).clone());
         let (first, size) = (columns.start, columns.len());
-        blocks.push(Block { name: name.clone(), kind: BlockKind::Camera, first, size, eliminated: false });
+        blocks.push(Block { name, kind: BlockKind::Camera, first, size, eliminated: false });
     }
     let mut first = blocks.last().map_or(0, |block| block.first + block.size);
     for (k, block) in network.points.iter().enumerate() {
         let size = columns.point(k).count();
-        let name = project.points[block.index].id.clone();
+        let name = names.text(|| project.points[block.index].id.clone());
         blocks.push(Block { name, kind: BlockKind::Point, first, size, eliminated: !block.kept });
         first += size;
     }
@@ -185,37 +200,42 @@ fn reduced(blocks: &[Block], n: &SparseMatrix, b: &[f64]) -> Result<Reduced> {
             s[(row, place[column])] += value;
         }
     }
+    // Place of a column of S among those beside a point; only those of the present point are read.
+    let mut at = vec![0; unknowns.len()];
+    // Columns of N_rp that are not empty, and what they have of the point's unknowns.
+    let mut beside: Vec<(usize, Vector3<f64>)> = Vec::new();
     for block in blocks.iter().filter(|block| block.eliminated && block.size > 0) {
         let own = block.first..block.first + block.size;
-        let mut diagonal = DMatrix::zeros(block.size, block.size);
-        // Columns of N_rp that are not empty.
-        let mut beside: Vec<(usize, DVector<f64>)> = Vec::new();
+        // A point has up to three unknowns; those that it has not are zero throughout.
+        let mut diagonal = Matrix3::identity();
+        beside.clear();
         for (k, unknown) in own.clone().enumerate() {
             for (column, value) in n.row(unknown) {
                 if own.contains(&column) {
                     diagonal[(k, column - block.first)] = value;
-                } else {
-                    let at = beside.iter().position(|(other, _)| *other == place[column]);
-                    let at = at.unwrap_or_else(|| {
-                        beside.push((place[column], DVector::zeros(block.size)));
-                        beside.len() - 1
-                    });
-                    beside[at].1[k] = value;
+                    continue;
                 }
+                let column = place[column];
+                if beside.get(at[column]).is_none_or(|(other, _)| *other != column) {
+                    at[column] = beside.len();
+                    beside.push((column, Vector3::zeros()));
+                }
+                beside[at[column]].1[k] = value;
             }
         }
         let inverse = diagonal.cholesky().ok_or_else(unsound)?.inverse();
-        let own_b = DVector::from_iterator(block.size, own.map(|unknown| b[unknown]));
+        let mut own_b = Vector3::zeros();
+        own.enumerate().for_each(|(k, unknown)| own_b[k] = b[unknown]);
         for (row, a) in &beside {
-            let carried = &inverse * a;
+            let carried = inverse * a;
             right[*row] -= carried.dot(&own_b);
             for (column, other) in &beside {
-                s[(*row, *column)] -= carried.dot(other);
+                s[(*column, *row)] -= carried.dot(other);
             }
         }
     }
     let rows = (0..s.nrows()).map(|row| s.row(row).iter().copied().enumerate().collect());
-    let s = SparseMatrix::from_rows(unknowns.len(), rows.collect::<Vec<Vec<(usize, f64)>>>());
+    let s = SparseMatrix::from_rows(unknowns.len(), rows);
     Ok(Reduced { unknowns, s, b: right.as_slice().to_vec() })
 }
 

@@ -51,15 +51,38 @@ impl SparseMatrix {
 
     /// AᵀPA with the weights of the rows; symmetric, both triangles.
     pub fn normal(&self, weights: &[f64]) -> Self {
-        let mut rows: Vec<std::collections::BTreeMap<usize, f64>> = vec![Default::default(); self.columns];
-        for (row, weight) in (0..self.rows).zip(weights) {
-            for (i, a) in self.row(row) {
+        // By columns: row and entry.
+        let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); self.columns];
+        for row in 0..self.rows.min(weights.len()) {
+            self.row(row).for_each(|(column, a)| columns[column].push((row, a)));
+        }
+        // Sums of the present row of the product, and which of them it has.
+        let (mut sums, mut has) = (vec![0.0; self.columns], vec![false; self.columns]);
+        let mut there = Vec::new();
+        let mut product = Self { columns: self.columns, row_starts: vec![0], ..Self::default() };
+        for column in &columns {
+            for &(row, a) in column {
+                let weighted = weights[row] * a;
                 for (j, b) in self.row(row) {
-                    *rows[i].entry(j).or_default() += weight * a * b;
+                    if !std::mem::replace(&mut has[j], true) {
+                        there.push(j);
+                    }
+                    sums[j] += weighted * b;
                 }
             }
+            there.sort_unstable();
+            for j in there.drain(..) {
+                has[j] = false;
+                let sum = std::mem::take(&mut sums[j]);
+                if sum != 0.0 {
+                    product.column_indices.push(j);
+                    product.values.push(sum);
+                }
+            }
+            product.rows += 1;
+            product.row_starts.push(product.values.len());
         }
-        Self::from_rows(self.columns, rows.into_iter().map(|row| row.into_iter().collect()))
+        product
     }
 
     /// AᵀPl.

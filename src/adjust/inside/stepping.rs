@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::adjust::equations::right_hand_side;
-use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::problem::state::State;
 use crate::adjust::problem::{eccentric, far_points, unmodelled};
@@ -19,10 +19,10 @@ use crate::error::Result;
 use crate::project::Project;
 use crate::rotation;
 
-use super::linear_system::{Columns, LinearSystem, of_session};
-use super::normal_equations::{NormalEquations, of_system};
+use super::linear_system::{Columns, LinearSystem, RowNames, of_session};
+use super::normal_equations::{NormalEquations, numbers_of_system, of_system};
 
-/// What is known after a step.
+/// State after a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepState {
     /// Steps taken so far.
@@ -70,7 +70,7 @@ struct Reached {
 /// # Errors
 /// As [`adjust`].
 pub fn start_adjustment(project: &Project, options: &AdjustOptions) -> Result<Adjuster> {
-    let first = after(project, options, 0, None)?;
+    let (first, ()) = after(project, options, 0, None, nothing)?;
     Ok(Adjuster { project: project.clone(), options: options.clone(), reached: vec![first], at: 0 })
 }
 
@@ -79,7 +79,7 @@ pub fn start_adjustment(project: &Project, options: &AdjustOptions) -> Result<Ad
 /// # Errors
 /// As [`adjust`].
 pub fn at_end(project: &Project, options: &AdjustOptions) -> Result<Adjuster> {
-    let last = after(project, options, usize::MAX, None)?;
+    let (last, ()) = after(project, options, usize::MAX, None, nothing)?;
     Ok(Adjuster { project: project.clone(), options: options.clone(), reached: vec![last], at: 0 })
 }
 
@@ -90,11 +90,27 @@ impl Adjuster {
     /// As [`adjust`].
     pub fn step(&mut self) -> Result<&StepState> {
         if self.at + 1 == self.reached.len() && self.state().termination.is_none() {
-            let next = after(&self.project, &self.options, self.at + 1, Some(self.state()))?;
+            let (next, ()) = after(&self.project, &self.options, self.at + 1, Some(self.state()), nothing)?;
             self.reached.push(next);
         }
         self.at = (self.at + 1).min(self.reached.len() - 1);
         Ok(self.state())
+    }
+
+    /// Takes one step as [`Self::step`] does and gives the equations after it without what is the same after every step:
+    /// [`Self::numbers`] in the time of the step.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn step_with_numbers(&mut self) -> Result<(LinearSystem, NormalEquations)> {
+        if self.at + 1 < self.reached.len() || self.state().termination.is_some() {
+            self.step()?;
+            return self.numbers();
+        }
+        let (next, numbers) = after(&self.project, &self.options, self.at + 1, Some(self.state()), with_normal)?;
+        self.reached.push(next);
+        self.at += 1;
+        Ok(numbers)
     }
 
     /// Goes back by one step; stays at the initial values.
@@ -114,7 +130,7 @@ impl Adjuster {
     /// # Errors
     /// As [`adjust`].
     pub fn linear_system(&self) -> Result<LinearSystem> {
-        self.here(|session| of_session(session, &self.options))
+        self.here(|session| of_session(session, &self.options, RowNames::Given))
     }
 
     /// The normal equations at the present values.
@@ -122,7 +138,28 @@ impl Adjuster {
     /// # Errors
     /// As [`adjust`].
     pub fn normal_equations(&self) -> Result<NormalEquations> {
-        self.here(|session| of_system(session, &self.options, &of_session(session, &self.options)?))
+        self.here(|session| of_system(session, &self.options, &of_session(session, &self.options, RowNames::Omitted)?))
+    }
+
+    /// Both, for the time of one.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn equations(&self) -> Result<(LinearSystem, NormalEquations)> {
+        self.here(|session| {
+            let system = of_session(session, &self.options, RowNames::Given)?;
+            let normal = of_system(session, &self.options, &system)?;
+            Ok((system, normal))
+        })
+    }
+
+    /// Both at the present values without what is the same after every step: names and units are empty, the order of elimination is empty,
+    /// and fill-in is 0.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn numbers(&self) -> Result<(LinearSystem, NormalEquations)> {
+        self.here(|session| with_normal(session, of_session(session, &self.options, RowNames::Omitted)?))
     }
 
     fn here<T>(&self, work: impl FnOnce(&Session<'_>) -> Result<T>) -> Result<T> {
@@ -156,13 +193,29 @@ pub(in crate::adjust) fn with_session<T>(
     let ready = far_points::brought_back(sized, &numbering);
     let ready = outside::retest::with_what_fits(ready, &numbering, options, &mut Vec::new());
     outside::control::enough(ready.as_ref(), &numbering)?;
-    let mut session = Session::new(ready.as_ref(), &numbering, &LeftOut::nothing(ready.as_ref()))?;
+    let mut session = Session::new(ready.as_ref(), &numbering, &RejectedObservations::nothing(ready.as_ref()))?;
     session.start_at(&far_points::control_starts(ready.as_ref(), &numbering));
     work(session)
 }
 
-/// The state after so many steps from the document's values.
-fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Option<&StepState>) -> Result<Reached> {
+/// Nothing but the state is asked for.
+fn nothing(_: &Session<'_>, _: LinearSystem) -> Result<()> {
+    Ok(())
+}
+
+fn with_normal(session: &Session<'_>, system: LinearSystem) -> Result<(LinearSystem, NormalEquations)> {
+    let normal = numbers_of_system(session, &system, RowNames::Omitted)?;
+    Ok((system, normal))
+}
+
+/// The state after so many steps from the document's values, and what else is made of the observation equations there, which have no names.
+fn after<T>(
+    project: &Project,
+    options: &AdjustOptions,
+    steps: usize,
+    before: Option<&StepState>,
+    work: impl FnOnce(&Session<'_>, LinearSystem) -> Result<T>,
+) -> Result<(Reached, T)> {
     with_session(project, options, |mut session| {
         let (mut iteration, mut termination, mut taken) = (None, None, 0);
         if steps == 0 {
@@ -178,7 +231,7 @@ fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Optio
             termination = Some(ended).filter(|ended| *ended != Termination::Stopped);
         }
         let (weighted_squares, _) = right_hand_side::cost(session.context(options.residuals)).ok_or_else(unsound)?;
-        let system = of_session(&session, options)?;
+        let system = of_session(&session, options, RowNames::Omitted)?;
         let values: Vec<f64> = system.unknowns.iter().map(|unknown| unknown.value).collect();
         let corrections =
             before.map_or_else(|| vec![0.0; values.len()], |before| corrections(&session, &values, before));
@@ -195,7 +248,8 @@ fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Optio
             residuals: system.l.iter().map(|l| -l).collect(),
             termination,
         };
-        Ok(Reached { told, values: session.state.clone(), shift: session.shift.clone() })
+        let made = work(&session, system)?;
+        Ok((Reached { told, values: session.state.clone(), shift: session.shift.clone() }, made))
     })
 }
 

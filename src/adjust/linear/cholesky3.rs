@@ -1,6 +1,6 @@
 //! The 3 × 3 normal matrix of one point: Cholesky factor and triangular solutions.
 
-/// What back-substitution needs of an eliminated point.
+/// Data of an eliminated point for back-substitution.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PointFactor {
     /// l11, l21, l31, l22, l32, l33 with reciprocal diagonal.

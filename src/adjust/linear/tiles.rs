@@ -15,7 +15,7 @@ const ABSENT: u32 = u32::MAX;
 
 /// Which tiles exist, after fill-in.
 #[derive(Clone, Debug)]
-pub struct Pattern {
+pub struct TilePattern {
     /// Tiles along one side.
     pub side: usize,
     /// Slot of tile (row, column), row-major, lower triangle; slots run column by column.
@@ -25,7 +25,7 @@ pub struct Pattern {
     count: usize,
 }
 
-impl Pattern {
+impl TilePattern {
     /// Fill-in of the lower-triangle tiles `present` (row, column).
     pub fn new(side: usize, present: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut filled = vec![false; side * side];
@@ -65,18 +65,18 @@ impl Pattern {
 /// The matrix, or its factor, or its inverse on the pattern.
 #[derive(Clone, Debug)]
 pub struct TileMatrix {
-    pattern: Pattern,
+    pattern: TilePattern,
     data: Vec<f64>,
 }
 
 /// A row of the matrix.
 #[derive(Clone, Copy, Debug)]
-pub struct Line {
+pub struct TileRow {
     first: usize,
     row: usize,
 }
 
-impl Line {
+impl TileRow {
     /// As [`TileMatrix::place`] of this row and a column ([`TileMatrix::column`]) not after it.
     #[inline]
     pub fn at(self, matrix: &TileMatrix, (tile, place): (u32, u32)) -> usize {
@@ -96,7 +96,7 @@ fn tile_mut(data: &mut [f64], slot: usize) -> &mut Tile {
 
 impl TileMatrix {
     /// Zeros on a pattern.
-    pub fn new(pattern: Pattern) -> Self {
+    pub fn new(pattern: TilePattern) -> Self {
         let data = vec![0.0; pattern.count * AREA];
         Self { pattern, data }
     }
@@ -113,7 +113,7 @@ impl TileMatrix {
         self.pattern.slot(row / TILE, column / TILE) * AREA + column % TILE * TILE + row % TILE
     }
 
-    /// The tile and the place in it of a column, for [`Line::at`].
+    /// The tile and the place in it of a column, for [`TileRow::at`].
     #[inline]
     pub fn column(column: usize) -> (u32, u32) {
         ((column / TILE) as u32, (column % TILE * TILE) as u32)
@@ -121,8 +121,8 @@ impl TileMatrix {
 
     /// A row, for the places of several numbers in it.
     #[inline]
-    pub fn line(&self, row: usize) -> Line {
-        Line { first: row / TILE * self.pattern.side, row: row % TILE }
+    pub fn line(&self, row: usize) -> TileRow {
+        TileRow { first: row / TILE * self.pattern.side, row: row % TILE }
     }
 
     /// The numbers, for [`Self::place`].
@@ -138,7 +138,7 @@ impl TileMatrix {
     }
 
     /// Cholesky factorisation in place. A pivot that is at most `tolerance` of its `reference` is replaced by the
-    /// reference and its index returned: the matrix is singular as far as the numbers can tell.
+    /// reference and its index returned: the matrix is singular within the precision of the numbers.
     pub fn factor(&mut self, reference: &[f64], tolerance: f64) -> Vec<usize> {
         let mut singular = Vec::new();
         for k in 0..self.pattern.side {
@@ -291,7 +291,7 @@ mod tests {
         let side = dense.nrows() / TILE;
         let present = (0..dense.nrows()).flat_map(|j| (j..dense.nrows()).map(move |i| (i, j)));
         let present = present.filter(|&(i, j)| dense[(i, j)] != 0.0).map(|(i, j)| (i / TILE, j / TILE));
-        let mut tiles = TileMatrix::new(Pattern::new(side, present));
+        let mut tiles = TileMatrix::new(TilePattern::new(side, present));
         for j in 0..dense.nrows() {
             for i in j..dense.nrows() {
                 if dense[(i, j)] != 0.0 {

@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::solve::session::{Log, Session};
 use crate::adjust::solve::values::applied;
@@ -38,9 +38,9 @@ const MEDIAN: f64 = 1.538;
 const MEETING_PX: f64 = 1.0;
 const MEETING: f64 = 10.0;
 
-/// A control point's given coordinates against where everything else sees it.
+/// Given coordinates of a control point compared with those determined by all other observations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct ControlDiscrepancy {
     /// Place of the point in the document.
     pub point: usize,
     /// Given minus seen, in the document's unit.
@@ -51,17 +51,17 @@ pub struct Comparison {
     pub wrong: bool,
 }
 
-/// What the comparison of all control points found.
+/// Result of the comparison of all control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// Points that took no part with their coordinates, and those found wrong.
-    pub compared: Vec<Comparison>,
+    /// Points that were not used with their coordinates, and those found wrong.
+    pub compared: Vec<ControlDiscrepancy>,
     /// Pairs that fit when their coordinates are exchanged.
     pub exchanged: Vec<[usize; 2]>,
 }
 
-/// A point as everything else sees it, in the document's unit.
-struct Seen {
+/// A control point as determined by all other observations, in the document's unit.
+struct ControlPointEstimate {
     point: usize,
     xyz: Vector3<f64>,
     covariance: Matrix3<f64>,
@@ -71,7 +71,7 @@ struct Seen {
     held: bool,
 }
 
-impl Seen {
+impl ControlPointEstimate {
     /// Size of the difference of some given coordinates, of variances `variance`, in standard errors.
     fn ratio(&self, given: &Vector3<f64>, variance: &Vector3<f64>) -> f64 {
         let d = given - self.xyz;
@@ -87,7 +87,7 @@ impl Seen {
 /// Control points of which nothing but what was set aside as disagreeing is measured, and the others that take part.
 fn sides(project: &Project, numbering: &Numbering) -> (Vec<usize>, Vec<usize>) {
     let mut enabled = vec![false; project.points.len()];
-    for (o, &(photo, point)) in project.observations.iter().zip(&numbering.sights) {
+    for (o, &(photo, point)) in project.observations.iter().zip(&numbering.observations) {
         enabled[point] |= o.enabled && project.photos[photo].enabled;
     }
     let disagreeing: std::collections::HashSet<&str> =
@@ -126,7 +126,7 @@ pub fn enough(project: &Project, numbering: &Numbering) -> Result<()> {
     Err(Error::ControlDisagrees { agreeing: names(used), disagreeing: names(aside) })
 }
 
-/// Compares the control points of a document that has adjusted values, under the control datum. None where too few of them take
+/// Compares the control points of a document that has adjusted values, under the control datum. `None` if too few of them take
 /// part, or where it cannot be adjusted.
 pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions) -> Option<Findings> {
     let (mut aside, used) = sides(project, numbering);
@@ -147,7 +147,7 @@ pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions
     let mut free = Vec::new();
     for &k in &aside {
         let Some((rows, xyz)) = meeting(project, numbering, k) else { continue };
-        let own = numbering.sights.iter().enumerate().filter(|(_, sight)| sight.1 == k);
+        let own = numbering.observations.iter().enumerate().filter(|(_, entry)| entry.1 == k);
         own.for_each(|(row, _)| work.observations[row].enabled = rows.contains(&row));
         work.points[k].role = Role::Check;
         work.points[k].xyz = Some(xyz);
@@ -170,18 +170,19 @@ pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions
         freed += 1;
     };
     // Control that is worse than stated as a whole has no wrong points.
-    let ratios: Vec<f64> = seen.iter().filter(|s| s.held).map(Seen::own).collect();
+    let ratios: Vec<f64> = seen.iter().filter(|s| s.held).map(ControlPointEstimate::own).collect();
     let limit = limit * (quantile(&ratios, 0.5) / MEDIAN).max(1.0);
-    let compared = seen.iter().filter(|s| free.contains(&s.point)).map(|s| Comparison {
+    let compared = seen.iter().filter(|s| free.contains(&s.point)).map(|s| ControlDiscrepancy {
         point: s.point,
         difference: (s.given - s.xyz).into(),
         ratio: s.own(),
         wrong: s.own() > limit,
     });
-    let compared: Vec<Comparison> =
+    let compared: Vec<ControlDiscrepancy> =
         compared.filter(|c| c.ratio.is_finite() && (c.wrong || aside.contains(&c.point))).collect();
-    let wrong: Vec<&Seen> = seen.iter().filter(|s| compared.iter().any(|c| c.wrong && c.point == s.point)).collect();
-    let fits = |a: &Seen, b: &Seen| a.ratio(&b.given, &b.variance) <= limit;
+    let wrong: Vec<&ControlPointEstimate> =
+        seen.iter().filter(|s| compared.iter().any(|c| c.wrong && c.point == s.point)).collect();
+    let fits = |a: &ControlPointEstimate, b: &ControlPointEstimate| a.ratio(&b.given, &b.variance) <= limit;
     let mut exchanged = Vec::new();
     for (n, a) in wrong.iter().enumerate() {
         exchanged.extend(wrong[..n].iter().filter(|b| fits(a, b) && fits(b, a)).map(|b| [b.point, a.point]));
@@ -195,8 +196,8 @@ fn seen(
     work: &Project,
     numbering: &Numbering,
     options: &AdjustOptions,
-) -> Option<(Vec<Seen>, Project)> {
-    let mut session = Session::new(work, numbering, &LeftOut::nothing(work)).ok()?;
+) -> Option<(Vec<ControlPointEstimate>, Project)> {
+    let mut session = Session::new(work, numbering, &RejectedObservations::nothing(work)).ok()?;
     let mut log = Log { iterations: Vec::new(), on_iteration: &mut |_| true };
     if session.iterate(options, &mut log).ok()? != Termination::Converged {
         return None;
@@ -221,7 +222,7 @@ fn seen(
             (x, cofactors.points[n])
         };
         let sigma = point.sigma.unwrap_or_default();
-        let seen = Seen {
+        let seen = ControlPointEstimate {
             point: block.index,
             xyz: frame.outside(place.into()).into(),
             covariance: covariance * (variance * frame.scale.powi(2)),
@@ -246,7 +247,8 @@ fn mostly_aside(project: &Project, point: usize) -> bool {
 /// What a standard error of a measurement is at a point, in the document's unit; the smallest of its photos.
 fn footprint(project: &Project, numbering: &Numbering, point: usize) -> Option<f64> {
     let xyz = Vector3::from(project.points[point].xyz?);
-    let rows = project.observations.iter().zip(&numbering.sights).filter(|(o, sight)| o.enabled && sight.1 == point);
+    let rows =
+        project.observations.iter().zip(&numbering.observations).filter(|(o, entry)| o.enabled && entry.1 == point);
     let each = rows.filter_map(|(o, &(photo, _))| {
         let pose = Pose::of_photo(&project.photos[photo])?;
         let camera = project.cameras[numbering.cameras[photo]].of_photo(&project.photos[photo]);
@@ -265,7 +267,7 @@ fn meeting(project: &Project, numbering: &Numbering, point: usize) -> Option<(Ve
     let aside: std::collections::HashSet<&str> =
         project.set_aside.iter().filter(|s| s.point == *id).map(|s| s.photo.as_str()).collect();
     let mut rays: Vec<(usize, f64, Ray)> = Vec::new();
-    for (row, (o, &(photo, of))) in project.observations.iter().zip(&numbering.sights).enumerate() {
+    for (row, (o, &(photo, of))) in project.observations.iter().zip(&numbering.observations).enumerate() {
         let offered = o.enabled || aside.contains(o.photo.as_str());
         if of != point || !project.photos[photo].enabled || !offered {
             continue;

@@ -2,15 +2,15 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Difference of two places, in standard errors of both, below which they are not told apart: 99.9 % of a point's own repetitions are
+/// Difference of two places, in standard errors of both, below which they are not distinguished: 99.9 % of a point's own repetitions are
 /// nearer (χ² of three degrees of freedom).
 const APART: f64 = 4.03;
 /// Standard errors of a measurement, and pixels in any case, from which on two measurements of one photo are two targets.
 const APART_PX: f64 = 1.0;
 
-/// A point with what tells it from others.
+/// A point that may have been measured under two names.
 #[derive(Clone, Debug)]
-pub struct Candidate {
+pub struct DoublePointCandidate {
     /// Coordinates.
     pub xyz: Vector3<f64>,
     /// Their covariance.
@@ -20,8 +20,9 @@ pub struct Candidate {
 }
 
 /// Pairs of candidates that may be one point, each with its smaller place first.
-pub fn pairs(candidates: &[Candidate]) -> Vec<[usize; 2]> {
-    let reach = |c: &Candidate| APART * (0..3).map(|a| c.covariance[(a, a)]).fold(0.0, f64::max).max(0.0).sqrt();
+pub fn pairs(candidates: &[DoublePointCandidate]) -> Vec<[usize; 2]> {
+    let reach =
+        |c: &DoublePointCandidate| APART * (0..3).map(|a| c.covariance[(a, a)]).fold(0.0, f64::max).max(0.0).sqrt();
     let mut order: Vec<usize> = (0..candidates.len()).filter(|&k| reach(&candidates[k]).is_finite()).collect();
     order.sort_by(|&a, &b| candidates[a].xyz.x.total_cmp(&candidates[b].xyz.x));
     let widest = order.iter().map(|&k| reach(&candidates[k])).fold(0.0, f64::max);
@@ -42,14 +43,14 @@ pub fn pairs(candidates: &[Candidate]) -> Vec<[usize; 2]> {
     found
 }
 
-fn not_apart(a: &Candidate, b: &Candidate) -> bool {
+fn not_apart(a: &DoublePointCandidate, b: &DoublePointCandidate) -> bool {
     let d = a.xyz - b.xyz;
     let both = (a.covariance + b.covariance).cholesky();
     both.is_some_and(|c| d.dot(&c.solve(&d)) <= APART * APART)
 }
 
 /// Whether a photo shows both, in different places.
-fn told_apart(a: &Candidate, b: &Candidate) -> bool {
+fn told_apart(a: &DoublePointCandidate, b: &DoublePointCandidate) -> bool {
     let beside = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) > APART_PX;
     a.places.iter().any(|(photo, p)| {
         let same = b.places.binary_search_by_key(photo, |place| place.0);
@@ -78,7 +79,7 @@ mod tests {
                 let place = Vector3::new(3.0 * f64::from(k % 7), 0.0, 8.5 * f64::from(k / 7));
                 let noise = Vector3::from_fn(|a, _| sigma[a] * normal());
                 let places = vec![(2 * k as usize, [100.0, 100.0])];
-                candidates.push(Candidate { xyz: place + noise, covariance, places });
+                candidates.push(DoublePointCandidate { xyz: place + noise, covariance, places });
             }
             for k in 0..20 {
                 let again = candidates[k].clone();
@@ -86,7 +87,7 @@ mod tests {
                 let beside = if k < 10 { (2 * k + 1, [100.0, 100.0]) } else { (2 * k, [104.0, 100.0]) };
                 let mut places = vec![beside];
                 places.sort_unstable_by_key(|p: &(usize, [f64; 2])| p.0);
-                candidates.push(Candidate { xyz: again.xyz + noise, places, ..again });
+                candidates.push(DoublePointCandidate { xyz: again.xyz + noise, places, ..again });
             }
             let found = pairs(&candidates);
             let doubles = (0..10).filter(|k| found.contains(&[*k, 40 + k])).count();

@@ -8,15 +8,15 @@ use crate::adjustment::{
 };
 use crate::project::{DatumKind, Project, Role, SetAside, SetAsideBy, SetAsideReason};
 
-use super::control::Comparison;
+use super::control::ControlDiscrepancy;
 
-/// Everything of the document that took no part in an adjustment: photos, control, distances, points, observations of other kinds,
+/// Everything of the document that was not used in an adjustment: photos, control, distances, points, observations of other kinds,
 /// image observations. `predicted` has the prediction errors of rows, `control` the comparison of control points.
 pub fn left_out(
     document: &Project,
     adjustment: &Adjustment,
     predicted: &HashMap<usize, f64>,
-    control: &[Comparison],
+    control: &[ControlDiscrepancy],
 ) -> Vec<LeftOutItem> {
     let list = List::new(document, adjustment);
     let mut items = list.photos();
@@ -114,7 +114,7 @@ impl<'a> List<'a> {
         out.map(one).collect()
     }
 
-    fn control(&self, compared: &[Comparison]) -> Vec<LeftOutItem> {
+    fn control(&self, compared: &[ControlDiscrepancy]) -> Vec<LeftOutItem> {
         if self.document.datum.kind != DatumKind::Control {
             return Vec::new();
         }

@@ -3,14 +3,14 @@
 //! An orientation judges measurements by fixed limits in the photo. The adjustment knows more: the prediction of an image
 //! coordinate by everything else has the cofactor q, and its error e/(σ √(1 + q)) is normal if the measurement is right (Baarda's w
 //! of an observation that is left out). q has the uncertainty of the exterior orientation, of the point and of given coordinates.
-//! What is tested stands in the equations with a vanishing weight, so that q comes with the cofactors.
+//! Tested observations are in the equations with a vanishing weight, so that q is available with the cofactors.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 use crate::adjust::gross_errors::robust::scale;
 use crate::adjust::gross_errors::snooping::vanishing;
-use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::problem::{eccentric, far_points};
 use crate::adjust::solve::session::{Log, Session};
@@ -36,12 +36,12 @@ pub fn unit(session: &Session<'_>, options: &AdjustOptions) -> f64 {
     if unit.is_finite() { unit.max(1.0) } else { 1.0 }
 }
 
-/// Prediction errors, in standard errors, of rows of the document that took no part in a session, of a standard deviation of unit
-/// weight `unit`. Rows are passed over whose photo takes no part, or whose point nothing else determines.
+/// Prediction errors, in standard errors, of rows of the document that were not used in a session, of a standard deviation of unit
+/// weight `unit`. Rows are skipped whose photo is not used, or whose point nothing else determines.
 pub fn predicted(
     session: &Session<'_>,
     rows: &[usize],
-    left_out: &LeftOut,
+    left_out: &RejectedObservations,
     unit: f64,
     options: &AdjustOptions,
 ) -> HashMap<usize, f64> {
@@ -51,7 +51,7 @@ pub fn predicted(
 fn tested(
     session: &Session<'_>,
     rows: &[usize],
-    left_out: &LeftOut,
+    left_out: &RejectedObservations,
     unit: f64,
     options: &AdjustOptions,
 ) -> Option<HashMap<usize, f64>> {
@@ -78,7 +78,7 @@ fn tested(
     probe.weights = factors.collect();
     let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
     let cofactors = probe.finish(&full, false).ok()?.cofactors?;
-    let one = |(k, ray): (usize, &crate::adjust::problem::network::Ray)| {
+    let one = |(k, ray): (usize, &crate::adjust::problem::network::ImageObservation)| {
         let (e, q, factor) = (residuals[k], cofactors.rays[k], probe.weights[k][0]);
         let alone = q.iter().any(|q| *q > UNPREDICTED);
         let error = |s: usize| e[s].abs() / (unit * (1.0 + q[s].max(0.0) / (factor * factor)).sqrt());
@@ -102,7 +102,7 @@ fn determined(session: &Session<'_>, rows: &[usize]) -> Vec<usize> {
         }
     };
     let stands = |row: &&usize| {
-        let (photo, point) = session.numbering.sights[**row];
+        let (photo, point) = session.numbering.observations[**row];
         let pose = photos.get(&photo).map(|k| &session.state.poses[*k]);
         let is_wide = project.cameras[session.numbering.cameras[photo]].interior.model().is_wide;
         pose.zip(place(point)).is_some_and(|(pose, x)| is_wide || pose.camera_point(&x)[2] < 0.0)
@@ -155,7 +155,7 @@ fn fitting(project: &Project, numbering: &Numbering, options: &AdjustOptions) ->
     if rows.is_empty() {
         return None;
     }
-    let nothing = LeftOut::nothing(project);
+    let nothing = RejectedObservations::nothing(project);
     let mut session = Session::new(project, numbering, &nothing).ok()?;
     session.start_at(&far_points::control_starts(project, numbering));
     let mut log = Log { iterations: Vec::new(), on_iteration: &mut |_| true };

@@ -2,22 +2,22 @@
 //!
 //! The fields of a photo's own interior orientation are linear. A photo that was cropped or scaled by hundreds of pixels bends its network so
 //! far that what it leaves of higher order looks like interior orientations of other photos too. Therefore the network is adjusted again, with
-//! the photo that explains most as a camera of its own, and looked at again; further photos follow as long as the others do not agree, and
+//! the photo that explains most as a camera of its own, and examined again; further photos follow as long as the others do not agree, and
 //! those go back that are not needed. Where a few photos are not enough, every photo is its own.
 
 use super::{Looked, looked};
-use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::solve::session::{Log, Session};
 use crate::adjust::solve::values::applied;
 use crate::adjustment::{AdjustOptions, PatternKind, StatisticsChoice, Termination};
 use crate::project::{Camera, Project};
 
-/// Most odd photos: of more it is the zoom or focus of all that changed, and each one costs an adjustment.
+/// Maximum number of odd photos: with more, the zoom or focus of all photos has changed; each one costs an adjustment.
 const MOST: usize = 4;
 
-/// The odd photos, from the one that explains most (index into the network's photos); by their places in the document. None where a few
-/// do not explain what is wrong, or where that cannot be told.
+/// The odd photos, from the one that explains most (index into the network's photos); by their places in the document. `None` if a few
+/// do not explain what is wrong, or if that cannot be determined.
 pub fn odd(session: &Session<'_>, options: &AdjustOptions, suspect: usize) -> Option<Vec<usize>> {
     let first = session.network.photos[suspect].index;
     let camera = session.numbering.cameras[first];
@@ -47,11 +47,12 @@ pub fn odd(session: &Session<'_>, options: &AdjustOptions, suspect: usize) -> Op
 }
 
 /// The photo of the camera that explains most of what is left where `odd` have cameras of their own; an inner none where the others agree.
-/// None where it cannot be adjusted so.
+/// `None` if it cannot be adjusted so.
 fn left(session: &Session<'_>, options: &AdjustOptions, camera: usize, odd: &[usize]) -> Option<Option<usize>> {
     let document = apart(session, odd);
     let numbering = Numbering::of(&document);
-    let left_out = LeftOut { given: session.network.left_out.clone(), ..LeftOut::nothing(&document) };
+    let left_out =
+        RejectedObservations { given: session.network.left_out.clone(), ..RejectedObservations::nothing(&document) };
     let mut other = Session::new(&document, &numbering, &left_out).ok()?;
     let options = AdjustOptions {
         statistics: StatisticsChoice::Precision,

@@ -1,7 +1,7 @@
-//! Displacement fields over the image that a cause leaves in the residuals.
+//! Displacement fields over the image by which causes of systematic residuals are modelled.
 //!
-//! With x, y from the principal point in half diagonals of the image, ρ² = x² + y², Legendre's polynomials P_j, and the rows J of a ray by
-//! the turn and shift of its photo:
+//! x, y are relative to the principal point, in units of half the image diagonal, ρ² = x² + y², P_j are Legendre's polynomials, and J is
+//! the derivative of a ray by the rotation and shift of its photo:
 //!
 //! | pattern | fields |
 //! | --- | --- |
@@ -13,32 +13,32 @@
 //! | photo | (x, y), (1, 0), (0, 1), (x, y) ρ² per photo |
 //! | observation | one image point by itself: a gross error, not a pattern |
 
-use crate::adjust::equations::collinearity::Row;
+use crate::adjust::equations::collinearity::CollinearityRows;
 use crate::adjust::problem::network::Network;
 use crate::adjust::solve::session::Session;
 use crate::project::Camera;
 
-/// Fields of radius.
+/// Number of fields of the radius.
 pub const RADIUS: usize = 6;
-/// Fields of the tangential pattern.
+/// Number of fields of the tangential pattern.
 pub const TANGENTIAL: usize = 6;
-/// Fields of affinity and shear.
+/// Number of fields of affinity and shear.
 pub const AFFINE: usize = 2;
 /// Degree of the smooth pattern of position: shorter waves than a third of the image are not smooth.
 const DEGREE: usize = 5;
-/// Fields of position: two components.
+/// Number of fields of position, with two components.
 pub const POSITION: usize = (DEGREE + 1) * (DEGREE + 2);
-/// Fields of a camera.
+/// Number of fields of a camera.
 const OF_CAMERA: usize = RADIUS + TANGENTIAL + AFFINE + POSITION;
-/// Fields of a motion.
+/// Number of fields of a motion.
 pub const MOTION: usize = 6;
-/// Fields of a photo's own interior orientation.
+/// Number of fields of a photo's own interior orientation.
 pub const INTERIOR: usize = 4;
-/// Fields of a photo: motion by row, by column, interior orientation.
+/// Number of fields of a photo: motion by row, by column, interior orientation.
 const OF_PHOTO: usize = 2 * MOTION + INTERIOR;
 
-/// A ray's place in the image of its camera.
-struct Place {
+/// Position of an observation in the image of its camera.
+struct RayPlace {
     /// Index into the tested cameras.
     camera: usize,
     /// Index into the tested photos.
@@ -47,9 +47,10 @@ struct Place {
     from_centre: [f64; 2],
     /// The measurement, pixels.
     pixel: [f64; 2],
-    /// Half the diagonal, the width and the height of the image, pixels.
-    half: f64,
-    halves: [f64; 2],
+    /// Half the diagonal of the image, pixels.
+    half_diagonal: f64,
+    /// Half the width and the height of the image, pixels.
+    half_sides: [f64; 2],
     /// Weighted residual per pixel of displacement.
     weight: [f64; 2],
     /// Index into the observations that are tested by themselves.
@@ -58,7 +59,7 @@ struct Place {
 
 /// Displacement fields, numbered: those of the cameras, of the photos, of single observations.
 pub struct Basis {
-    places: Vec<Place>,
+    places: Vec<RayPlace>,
     /// Cameras of the document.
     pub cameras: Vec<usize>,
     /// Photos tested one by one, with their place among the cameras: indices into [`Network::photos`].
@@ -68,7 +69,7 @@ pub struct Basis {
 }
 
 /// A field's number and its weighted displacement at a ray.
-pub type Entry = (usize, [f64; 2]);
+pub type BasisEntry = (usize, [f64; 2]);
 
 /// P_0 … P_n at t.
 fn legendre<const N: usize>(t: f64) -> [f64; N] {
@@ -105,23 +106,23 @@ impl Basis {
             .map(|(block, interior)| Camera { interior: *interior, ..session.project.cameras[block.camera].clone() })
             .collect();
         let centres: Vec<[f64; 2]> = adjusted.iter().map(principal_point).collect();
-        let place = |(k, ray): (usize, &crate::adjust::problem::network::Ray)| {
+        let place = |(k, ray): (usize, &crate::adjust::problem::network::ImageObservation)| {
             let interior = blocks[ray.photo].interior;
             let (camera, centre) = (&adjusted[interior], centres[interior]);
             let (width, height) = (f64::from(camera.width), f64::from(camera.height));
             let observation = &session.project.observations[ray.row];
-            let half = width.hypot(height) / 2.0;
+
             let [px, py] = camera.residual_pitch();
             // photo coordinates count upwards
             let per_pixel = [px, if camera.interior.model().in_photo_units { -py } else { py }];
             let robust = session.weights.get(k).copied().unwrap_or([1.0; 2]);
-            Place {
+            RayPlace {
                 camera: number(ray.photo),
                 photo: photos.iter().position(|photo| *photo == ray.photo),
                 from_centre: [observation.u - centre[0], observation.v - centre[1]],
                 pixel: [observation.u, observation.v],
-                half,
-                halves: [width / 2.0, height / 2.0],
+                half_diagonal: width.hypot(height) / 2.0,
+                half_sides: [width / 2.0, height / 2.0],
                 weight: std::array::from_fn(|s| per_pixel[s] * ray.sqrt_weight[s] * robust[s]),
                 single: singles.iter().position(|single| *single == k),
             }
@@ -171,7 +172,7 @@ impl Basis {
         first..first + POSITION
     }
 
-    /// Motion of tested photo number `photo` by row, three turns and three shifts.
+    /// Motion of tested photo number `photo` by row, three rotations and three shifts.
     pub fn row(&self, photo: usize) -> std::ops::Range<usize> {
         let first = self.of_photo(photo);
         first..first + MOTION
@@ -202,15 +203,15 @@ impl Basis {
     }
 
     /// The weighted fields at a ray that are not zero there.
-    pub fn at<const N: usize>(&self, ray: usize, row: &Row<N>, entries: &mut Vec<Entry>) {
+    pub fn at<const N: usize>(&self, ray: usize, row: &CollinearityRows<N>, entries: &mut Vec<BasisEntry>) {
         entries.clear();
         let place = &self.places[ray];
         let [wx, wy] = place.weight;
-        // Where the model sees the point, not where it was measured: fields that depend on the residuals correlate with them, and
-        // where the unknowns take over all else of a field just that would be left.
+        // Fields are evaluated at the adjusted position, not at the measured one: otherwise they would be correlated with the residuals,
+        // and where the unknowns absorb the rest of a field only that correlation would remain.
         let off = [row.e[0] / wx, row.e[1] / wy];
-        let [x, y]: [f64; 2] = std::array::from_fn(|s| (place.from_centre[s] + off[s]) / place.half);
-        let [u, v]: [f64; 2] = std::array::from_fn(|s| (place.pixel[s] + off[s]) / place.halves[s] - 1.0);
+        let [x, y]: [f64; 2] = std::array::from_fn(|s| (place.from_centre[s] + off[s]) / place.half_diagonal);
+        let [u, v]: [f64; 2] = std::array::from_fn(|s| (place.pixel[s] + off[s]) / place.half_sides[s] - 1.0);
         let square = x * x + y * y;
         let of_radius: [f64; RADIUS] = legendre(2.0 * square - 1.0);
         let mut next = Self::of_camera(place.camera);

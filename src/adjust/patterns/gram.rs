@@ -13,11 +13,11 @@ use crate::adjust::equations::back_substitution::Full;
 use crate::adjust::equations::collinearity::Linearisation;
 use crate::adjust::equations::normal::with_interior_size;
 use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::Step;
+use crate::adjust::problem::step::Step;
 use crate::adjust::solve::session::Session;
 use crate::adjustment::ResidualPlace;
 
-use super::basis::{Basis, Entry};
+use super::basis::{Basis, BasisEntry};
 
 /// A field of which the unknowns leave less than this part of its squares is taken over by them: G is the difference of numbers that are
 /// good to some 1e-10 of ZᵀPZ, and keeps five digits above it. A three hundredth of its size.
@@ -38,23 +38,28 @@ pub struct Response {
 }
 
 /// Sums over the rays: AᵀPZ, ZᵀPZ, ZᵀPe.
-struct Sums {
+struct GramMatrices {
     by_unknown: Vec<Full>,
     squares: DMatrix<f64>,
     b: DVector<f64>,
 }
 
-fn sums<const N: usize>(session: &Session<'_>, place: ResidualPlace, basis: &Basis, step: &Step) -> Option<Sums> {
+fn sums<const N: usize>(
+    session: &Session<'_>,
+    place: ResidualPlace,
+    basis: &Basis,
+    step: &Step,
+) -> Option<GramMatrices> {
     let (_, layout) = session.factored();
     let network = &session.network;
     let count = basis.len();
-    let mut sums = Sums {
+    let mut sums = GramMatrices {
         by_unknown: vec![Full::zeros(network, layout); count],
         squares: DMatrix::zeros(count, count),
         b: DVector::zeros(count),
     };
     let linearisation = Linearisation::<N>::new(session.context(place))?;
-    let (mut behind, mut room, mut entries) = (0, Vec::new(), Vec::<Entry>::new());
+    let (mut behind, mut room, mut entries) = (0, Vec::new(), Vec::<BasisEntry>::new());
     for (point, block) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;
         for (ray, row) in block.rays.clone().zip(rows) {
@@ -96,10 +101,10 @@ fn numbers(full: &Full) -> impl Iterator<Item = f64> {
 }
 
 impl Gram {
-    /// From the equations that [`Session::finish`] has factored and the step that they still ask for. None where a point cannot be projected into its photo.
+    /// From the equations that [`Session::finish`] has factored and the step that they still ask for. `None` if a point cannot be projected into its photo.
     pub fn new(session: &Session<'_>, place: ResidualPlace, basis: &Basis, step: &Step) -> Option<(Self, Response)> {
         let network = &session.network;
-        let Sums { by_unknown, squares, b } = with_interior_size!(network, sums(session, place, basis, step))?;
+        let GramMatrices { by_unknown, squares, b } = with_interior_size!(network, sums(session, place, basis, step))?;
         let (normal, layout) = session.factored();
         let mut solved = by_unknown.clone();
         normal.solve_all(network, layout, &mut solved);
@@ -159,7 +164,7 @@ impl Gram {
         fields.iter().map(|k| self.raw[*k].max(0.0).sqrt()).collect()
     }
 
-    /// The amounts of a group's fields that lower eᵀPe most; 0 for fields that others stand for.
+    /// The amounts of a group's fields that lower eᵀPe most; 0 for fields that are linear combinations of others.
     pub fn amounts(&self, fields: &[usize]) -> Vec<f64> {
         let part = self.part(fields);
         let n = fields.len();
@@ -220,7 +225,7 @@ fn lengths<const N: usize>(
         }
     }
     let linearisation = Linearisation::<N>::new(session.context(place))?;
-    let (mut behind, mut room, mut entries) = (0, Vec::new(), Vec::<Entry>::new());
+    let (mut behind, mut room, mut entries) = (0, Vec::new(), Vec::<BasisEntry>::new());
     let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0.0);
     for (point, block) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;

@@ -5,14 +5,15 @@
 //! them are tested, weighted down and taken out by the same rules as image coordinates.
 
 use crate::adjustment::Given;
-use crate::project::{Parameter, Project};
+use crate::project::Project;
 
+use super::left_out::Key;
 use super::network::{Bar, Network};
 use super::state::State;
 
-/// An observation by its place in the [`Network`].
+/// An observation that is not an image measurement, by its place in the [`Network`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Observed {
+pub enum AdditionalObservation {
     /// Point and axis.
     Control(usize, usize),
     /// Photo and axis.
@@ -23,58 +24,24 @@ pub enum Observed {
     Parameter(usize, usize),
 }
 
-/// An observation by its place in the document, which stays when the network is numbered anew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
-    /// Point and axis.
-    Control(usize, usize),
-    /// Photo and axis.
-    Position(usize, usize),
-    /// Distance.
-    Distance(usize),
-    /// Camera, photo for an interior orientation per photo, parameter.
-    Parameter(usize, Option<usize>, Parameter),
-}
-
-/// What is left out of a document by the search for gross errors.
-#[derive(Clone, Debug, Default)]
-pub struct LeftOut {
-    /// Per image observation.
-    pub observations: Vec<bool>,
-    /// Observations of other kinds.
-    pub given: Vec<Key>,
-}
-
-impl LeftOut {
-    /// Nothing.
-    pub fn nothing(project: &Project) -> Self {
-        Self { observations: vec![false; project.observations.len()], given: Vec::new() }
-    }
-
-    /// Whether nothing is left out.
-    pub fn is_empty(&self) -> bool {
-        self.given.is_empty() && !self.observations.contains(&true)
-    }
-}
-
 /// All that take part, in the order of the result.
-pub fn all(network: &Network) -> Vec<Observed> {
+pub fn all(network: &Network) -> Vec<AdditionalObservation> {
     let mut list = Vec::new();
     for (k, point) in network.points.iter().enumerate() {
-        list.extend((0..3).filter(|a| point.prior[*a].1 > 0.0).map(|a| Observed::Control(k, a)));
+        list.extend((0..3).filter(|a| point.prior[*a].1 > 0.0).map(|a| AdditionalObservation::Control(k, a)));
     }
     for (k, photo) in network.photos.iter().enumerate() {
-        list.extend((0..3).filter(|a| photo.prior[*a].1 > 0.0).map(|a| Observed::Position(k, a)));
+        list.extend((0..3).filter(|a| photo.prior[*a].1 > 0.0).map(|a| AdditionalObservation::Position(k, a)));
     }
-    list.extend((0..network.bars.len()).map(Observed::Distance));
+    list.extend((0..network.bars.len()).map(AdditionalObservation::Distance));
     for (k, interior) in network.interiors.iter().enumerate() {
         let observed = (0..interior.estimated.len()).filter(|n| interior.estimated[*n].prior.1 > 0.0);
-        list.extend(observed.map(|n| Observed::Parameter(k, n)));
+        list.extend(observed.map(|n| AdditionalObservation::Parameter(k, n)));
     }
     list
 }
 
-impl Observed {
+impl AdditionalObservation {
     /// Reciprocal standard error.
     pub fn sqrt_weight(self, network: &Network) -> f64 {
         match self {

@@ -5,20 +5,20 @@
 //! depend so weakly on the unknowns that they are held during an iteration and computed again after it.
 //!
 //! An eccentricity is e = E sin 2α with the angle α between ray and normal, E = c r²/(2Z²) at distance Z; an error of the
-//! normal by σ changes it by up to 2Eσ. A surface is believed where that is at most a tenth of E, σ ≤ 1/20: what it leaves
+//! normal by σ changes it by up to 2Eσ. A surface is accepted if that is at most a tenth of E, σ ≤ 1/20: what it leaves
 //! is then small beside what it takes away, and points scattered in space are far from it.
 //!
 //! Corrections of some points and not of their neighbours bend the object, which is worse than none: points that are each other's
 //! neighbours are one group, and all of it is corrected or nothing. A group counts as a surface where nine tenths of its normals
-//! are believed and the others, at its rim, leave at most half of E.
+//! are accepted and the others, at its rim, leave at most half of E.
 
 use nalgebra::Vector3;
 use std::borrow::Cow;
 
 use crate::adjustment::PointEccentricity;
-use crate::eccentricity::{Circle, pixels};
+use crate::eccentricity::{TargetCircle, pixels};
 use crate::error::{Error, Place, Reason, Result};
-use crate::project::Project;
+use crate::project::{Camera, Project};
 
 use super::network::Network;
 use super::state::State;
@@ -26,7 +26,7 @@ use super::surface::Surface;
 
 /// Part of the largest eccentricity that the uncertainty of a surface's normal may leave, see above.
 const LEFT: f64 = 0.1;
-/// The same at the rim of a surface, and the share of a group whose normals are to be believed.
+/// The same at the rim of a surface, and the share of a group whose normals must be accepted.
 const LEFT_AT_THE_RIM: f64 = 0.5;
 const BELIEVED: f64 = 0.9;
 
@@ -55,19 +55,15 @@ pub fn sized(mut project: Cow<'_, Project>, diameter: Option<f64>) -> Result<Cow
     Ok(project)
 }
 
-/// Corrections in the units of the residuals, per ray, to be taken off the measurements; empty where no target has a
+/// Corrections in the units of the residuals, per ray, to be taken off the measurements; empty if no target has a
 /// diameter.
 pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 2]> {
     let diameter = |k: usize| project.points[network.points[k].index].diameter.filter(|d| *d > 0.0);
     if (0..network.points.len()).all(|k| diameter(k).is_none()) {
         return Vec::new();
     }
-    let cameras: Vec<_> = (network.imagings.iter().zip(network.imaging_interiors(state)))
-        .map(|(imaging, interior)| {
-            let mut camera = project.cameras[network.interiors[imaging.interior].camera].clone();
-            camera.interior = interior;
-            camera
-        })
+    let cameras: Vec<_> = (network.interiors.iter().zip(&state.interiors))
+        .map(|(block, &interior)| Camera { interior, ..project.cameras[block.camera].clone() })
         .collect();
     let mut shifts = vec![[0.0; 2]; network.rays.len()];
     let normals = normals(project, network, state);
@@ -76,10 +72,10 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
         let diameter = diameter(k).unwrap_or_default() / network.frame.scale;
         for ray in block.rays.clone() {
             let photo = network.rays[ray].photo;
-            let camera = &cameras[network.photos[photo].imaging];
+            let camera = &cameras[network.photos[photo].interior];
             let pose = &state.poses[photo];
             let centre = Vector3::from(pose.camera_point(&state.points[k]));
-            let circle = Circle { centre, normal: pose.matrix() * normal, diameter };
+            let circle = TargetCircle { centre, normal: pose.matrix() * normal, diameter };
             let Some([du, dv]) = pixels(camera, &circle) else { continue };
             let pitch = camera.residual_pitch();
             let down = if camera.interior.model().in_photo_units { -1.0 } else { 1.0 };
@@ -154,9 +150,9 @@ fn groups(surface: &Surface<'_>, open: &[bool]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// What was done about the eccentricity of every point with a diameter: the largest correction of its rays, none where its normal
+/// Correction of the eccentricity of every point with a diameter: the largest correction of its rays, none where its normal
 /// is not known.
-pub fn told(project: &Project, network: &Network, shift: &[[f64; 2]]) -> Vec<PointEccentricity> {
+pub fn eccentricities(project: &Project, network: &Network, shift: &[[f64; 2]]) -> Vec<PointEccentricity> {
     let mut told = Vec::new();
     for block in &network.points {
         let point = &project.points[block.index];
@@ -274,7 +270,7 @@ mod tests {
                 m * Vector3::from(point.normal.expect("given")),
             ];
             let camera = &project.cameras[0];
-            let [du, dv] = pixels(camera, &Circle { centre, normal, diameter: DIAMETER }).expect("seen");
+            let [du, dv] = pixels(camera, &TargetCircle { centre, normal, diameter: DIAMETER }).expect("seen");
             let [u, v] = pixel_from_camera_point(camera, centre).expect("in front");
             (observation.u, observation.v) = (u + du, v + dv);
         }
@@ -373,7 +369,7 @@ mod tests {
         assert!(believed < 10, "{believed} of 2000");
     }
 
-    /// Points of a half sphere, rim included: every normal is that of the sphere, and all of them are believed.
+    /// Points of a half sphere, rim included: every normal is that of the sphere, and all of them are accepted.
     #[test]
     fn a_dome_shows_its_normals_to_the_rim() {
         for count in [60, 600] {

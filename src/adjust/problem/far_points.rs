@@ -38,7 +38,7 @@ fn found(project: &Project, numbering: &Numbering, role: Role) -> Vec<(usize, [f
     if rows.is_empty() {
         return Vec::new();
     }
-    for (row, (_, point)) in numbering.sights.iter().enumerate() {
+    for (row, (_, point)) in numbering.observations.iter().enumerate() {
         if let Some(list) = rows.get_mut(point).filter(|_| project.observations[row].enabled) {
             list.push(row);
         }
@@ -68,7 +68,7 @@ fn far(project: &Project, role: Role) -> Vec<usize> {
 /// Points of a role that lie behind a photo in which they are measured.
 fn behind(project: &Project, numbering: &Numbering, role: Role) -> Vec<usize> {
     let poses: Vec<Option<Pose>> = project.photos.iter().map(|p| Pose::of_photo(p).filter(|_| p.enabled)).collect();
-    let measured = numbering.sights.iter().zip(&project.observations).filter(|(_, o)| o.enabled);
+    let measured = numbering.observations.iter().zip(&project.observations).filter(|(_, o)| o.enabled);
     let off = measured.filter_map(|(&(photo, point), _)| {
         let xyz = project.points[point].xyz.filter(|_| project.points[point].role == role)?;
         let is_wide = project.cameras[numbering.cameras[photo]].interior.model().is_wide;
@@ -82,7 +82,7 @@ fn intersection(project: &Project, numbering: &Numbering, point: usize, rows: &[
     let rays: Vec<Ray> = rows
         .iter()
         .filter_map(|&row| {
-            let (o, place) = (&project.observations[row], numbering.sights[row].0);
+            let (o, place) = (&project.observations[row], numbering.observations[row].0);
             let photo = Some(&project.photos[place]).filter(|p| p.enabled)?;
             let camera = project.cameras[numbering.cameras[place]].of_photo(photo);
             Some(Ray { pose: Pose::of_photo(photo)?, image: ideal_from_pixel(&camera, [o.u, o.v])?, weight: 1.0 })

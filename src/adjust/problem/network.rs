@@ -1,20 +1,20 @@
 //! The document as the adjustment sees it: numbered blocks, observations sorted by point, coordinates reduced to their
 //! centre and size so that nothing large is squared.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 use crate::camera;
 use crate::error::{Defect, Error, Lack, Result};
 use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
-use super::additional::{Key, LeftOut};
+use super::left_out::{Key, RejectedObservations};
 use super::numbering::Numbering;
 use super::rig::{self, Member};
-use super::state::{Frame, Pose, State};
+use super::state::{ExteriorOrientation, Frame, State};
 
 /// An image observation that takes part.
 #[derive(Clone, Debug)]
-pub struct Ray {
+pub struct ImageObservation {
     /// Index into [`Network::photos`].
     pub photo: usize,
     /// In the units of the camera's residuals.
@@ -25,8 +25,8 @@ pub struct Ray {
     pub row: usize,
 }
 
-/// A value known beforehand with a reciprocal standard error, which is 0 where it was not observed.
-pub type Prior = [(f64, f64); 3];
+/// Observed coordinates with reciprocal standard errors, which are 0 for axes that were not observed.
+pub type PriorCoordinates = [(f64, f64); 3];
 
 /// A photo that takes part.
 #[derive(Clone, Debug)]
@@ -35,10 +35,8 @@ pub struct PhotoBlock {
     pub index: usize,
     /// Index into [`Network::interiors`].
     pub interior: usize,
-    /// Index into [`Network::imagings`].
-    pub imaging: usize,
     /// Observed projection centre.
-    pub prior: Prior,
+    pub prior: PriorCoordinates,
     /// Number of its rays.
     pub rays: usize,
 }
@@ -63,17 +61,8 @@ pub struct InteriorBlock {
     pub camera: usize,
     /// The photo it belongs to alone (index into [`Network::photos`]), for cameras with one per photo.
     pub photo: Option<usize>,
-    /// What is estimated of it.
+    /// Its estimated parameters.
     pub estimated: Vec<Estimated>,
-}
-
-/// What images photos: an interior orientation in the colour that they were measured in.
-#[derive(Clone, Debug)]
-pub struct Imaging {
-    /// Index into [`Network::interiors`].
-    pub interior: usize,
-    /// What the colour adds to its parameters; empty in the camera's own.
-    differences: BTreeMap<Parameter, f64>,
 }
 
 /// A point that takes part.
@@ -86,7 +75,7 @@ pub struct PointBlock {
     /// Axes that are held.
     pub fixed: [bool; 3],
     /// Given coordinates with their weights, in the frame of the adjustment.
-    pub prior: Prior,
+    pub prior: PriorCoordinates,
     /// Whether it stays in the reduced normal equations, because a distance ties it to another point.
     pub kept: bool,
 }
@@ -115,19 +104,17 @@ pub struct Network {
     pub photos: Vec<PhotoBlock>,
     /// Interior orientations of these photos.
     pub interiors: Vec<InteriorBlock>,
-    /// These in the colours of the photos.
-    pub imagings: Vec<Imaging>,
     /// Points with rays or distances.
     pub points: Vec<PointBlock>,
     /// Rays, sorted by point.
-    pub rays: Vec<Ray>,
+    pub rays: Vec<ImageObservation>,
     /// Distances whose ends both take part.
     pub bars: Vec<Bar>,
     /// Cameras of the rig beside its first one.
     pub rig: Vec<Member>,
     /// Kind of datum.
     pub datum: DatumKind,
-    /// Points that carry the datum, where the document names them.
+    /// Points that define the datum, if the document names them.
     pub datum_points: Option<Vec<usize>>,
     /// Observations of other kinds than image coordinates that were left out.
     pub left_out: Vec<Key>,
@@ -143,12 +130,12 @@ impl Network {
     /// # Errors
     /// [`Error::Empty`] without observations, [`Error::MissingInitialValues`], [`Error::RankDefect`] for points and
     /// photos with too few rays.
-    pub fn new(project: &Project, numbering: &Numbering, left_out: &LeftOut) -> Result<(Self, State)> {
+    pub fn new(project: &Project, numbering: &Numbering, left_out: &RejectedObservations) -> Result<(Self, State)> {
         let mut rays_of_point: Vec<Vec<(usize, usize)>> = vec![Vec::new(); project.points.len()];
         let mut rays_of_photo = vec![0; project.photos.len()];
         let mut mentioned = vec![false; project.points.len()];
         for (row, o) in project.observations.iter().enumerate() {
-            let (photo, point) = numbering.sights[row];
+            let (photo, point) = numbering.observations[row];
             mentioned[point] = true;
             if o.enabled && project.photos[photo].enabled && !left_out.observations[row] {
                 rays_of_point[point].push((photo, row));
@@ -190,7 +177,6 @@ impl Network {
             frame,
             photos: Vec::new(),
             interiors: Vec::new(),
-            imagings: Vec::new(),
             points: Vec::new(),
             rays: Vec::new(),
             bars: Vec::new(),
@@ -202,7 +188,7 @@ impl Network {
         let used = |key: Key| !left_out.given.contains(&key);
         let mut state = State::default();
         let mut place_of_photo = vec![usize::MAX; project.photos.len()];
-        let (mut shared, mut imagings) = (HashMap::new(), HashMap::new());
+        let mut shared = HashMap::new();
         for (k, photo) in project.photos.iter().enumerate().filter(|(k, _)| rays_of_photo[*k] > 0) {
             let at = network.photos.len();
             place_of_photo[k] = at;
@@ -221,14 +207,8 @@ impl Network {
             };
             let interior =
                 if camera.per_photo { add_interior() } else { *shared.entry(c).or_insert_with(add_interior) };
-            let differences = camera.differences_of(photo);
-            let imaging =
-                *imagings.entry((interior, photo.colour.filter(|_| differences.is_some()))).or_insert_with(|| {
-                    network.imagings.push(Imaging { interior, differences: differences.cloned().unwrap_or_default() });
-                    network.imagings.len() - 1
-                });
             let position = photo.position.unwrap_or_default();
-            let mut prior = Prior::default();
+            let mut prior = PriorCoordinates::default();
             if let (true, Some(sigma)) = (controlled, photo.sigma_position) {
                 let inside = frame.inside(position);
                 prior = std::array::from_fn(|a| match sigma[a] {
@@ -236,14 +216,14 @@ impl Network {
                     _ => (0.0, 0.0),
                 });
             }
-            network.photos.push(PhotoBlock { index: k, interior, imaging, prior, rays: rays_of_photo[k] });
-            state.poses.push(Pose::new(frame.inside(position), photo.rotation.unwrap_or_default()));
+            network.photos.push(PhotoBlock { index: k, interior, prior, rays: rays_of_photo[k] });
+            state.poses.push(ExteriorOrientation::new(frame.inside(position), photo.rotation.unwrap_or_default()));
         }
         let mut place_of_point = vec![usize::MAX; project.points.len()];
         for (k, point) in project.points.iter().enumerate().filter(|(k, _)| takes_part[*k]) {
             place_of_point[k] = network.points.len();
             let xyz = frame.inside(point.xyz.unwrap_or_default());
-            let (mut fixed, mut prior) = ([false; 3], Prior::default());
+            let (mut fixed, mut prior) = ([false; 3], PriorCoordinates::default());
             if given(k) {
                 for a in 0..3 {
                     match point.sigma.and_then(|s| s[a]) {
@@ -259,7 +239,7 @@ impl Network {
                 let camera = &project.cameras[numbering.cameras[photo]];
                 let unit = camera.residual_pitch();
                 let sigma = o.sigma.both();
-                network.rays.push(Ray {
+                network.rays.push(ImageObservation {
                     photo: place_of_photo[photo],
                     measured: camera::measurement_from_pixel(camera, [o.u, o.v]),
                     sqrt_weight: [1.0 / (sigma[0] * unit[0]), 1.0 / (sigma[1] * unit[1])],
@@ -289,11 +269,6 @@ impl Network {
         Ok((network, state))
     }
 
-    /// What images the photos at a state: the values of its interior orientations, each in its colours.
-    pub fn imaging_interiors(&self, state: &State) -> impl Iterator<Item = Interior> {
-        self.imagings.iter().map(|imaging| state.interiors[imaging.interior].plus(&imaging.differences))
-    }
-
     /// Room for the unknowns of an interior orientation: the largest number of them, made even; 0 to 12.
     pub fn interior_size(&self) -> usize {
         self.interiors.iter().map(|i| i.estimated.len()).max().unwrap_or(0).next_multiple_of(2)
@@ -301,7 +276,7 @@ impl Network {
 
     /// Scalar observations of every kind.
     pub fn observations_count(&self) -> usize {
-        let weighted = |prior: &Prior| prior.iter().filter(|(_, w)| *w > 0.0).count();
+        let weighted = |prior: &PriorCoordinates| prior.iter().filter(|(_, w)| *w > 0.0).count();
         2 * self.rays.len()
             + self.bars.len()
             + self.rig.iter().map(Member::observations).sum::<usize>()
@@ -318,7 +293,7 @@ impl Network {
     }
 }
 
-/// What is estimated of a camera, with scales that make every unknown move an image point by about as much.
+/// The estimated parameters of a camera, with scales that make every unknown move an image point by about as much.
 fn estimated(camera: &Camera, interior: &Interior, used: impl Fn(Parameter) -> bool) -> Vec<Estimated> {
     let [pitch_x, pitch_y] = camera.residual_pitch();
     let model = interior.model();

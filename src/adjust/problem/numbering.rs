@@ -9,14 +9,14 @@ use crate::project::Project;
 #[derive(Clone, Debug, Default)]
 pub struct Numbering {
     /// Of every observation its photo and its point.
-    pub sights: Vec<(usize, usize)>,
+    pub observations: Vec<(usize, usize)>,
     /// Of every photo its camera.
     pub cameras: Vec<usize>,
     /// Of every distance its ends.
     pub ends: Vec<[usize; 2]>,
     /// Of every exposure of the rig its photos; a photo that is not in the document is none.
     pub together: Vec<Vec<Option<usize>>>,
-    /// Points that carry the datum, where the document names them.
+    /// Points that define the datum, if the document names them.
     pub datum: Option<Vec<usize>>,
 }
 
@@ -31,7 +31,7 @@ impl Numbering {
         let cameras = places(project.cameras.iter().map(|c| &c.id));
         let point = |id: &String| points[id.as_str()];
         Self {
-            sights: project.observations.iter().map(|o| (photos[o.photo.as_str()], point(&o.point))).collect(),
+            observations: project.observations.iter().map(|o| (photos[o.photo.as_str()], point(&o.point))).collect(),
             cameras: project.photos.iter().map(|p| cameras[p.camera.as_str()]).collect(),
             ends: project.distances.iter().map(|d| [point(&d.from), point(&d.to)]).collect(),
             together: project

@@ -12,7 +12,7 @@
 //! Σ |log(R_e R̄ᵀ)|² / σ_R² + |t_e - t̄|² / σ_t²
 //! ```
 //!
-//! and are eliminated beforehand: no unknowns stand for them, and each camera adds 6(n - 1) observations. With d_e the weighted deviations
+//! and are eliminated beforehand: they are no unknowns of the equations, and each camera adds 6(n - 1) observations. With d_e the weighted deviations
 //! from the mean, J_e their derivatives by both photos, the normal equations take up Σ JᵀJ - (ΣJ)ᵀ(ΣJ)/n and the right-hand side -Σ Jᵀd.
 //! A turn τ of a photo about its camera axes, M' = exp([τ]×) M, and a shift δ of its projection centre change
 //!
@@ -62,7 +62,7 @@ pub struct Mean {
 }
 
 /// The members that any exposure has together with the first camera. `place` has the places of the document's photos in the network,
-/// `usize::MAX` for those that take no part.
+/// `usize::MAX` for those that are not used.
 pub fn members(rig: &Rig, together: &[Vec<Option<usize>>], place: &[usize], frame: &Frame) -> Vec<Member> {
     let taking_part = |photo: Option<usize>| photo.map(|photo| place[photo]).filter(|at| *at != usize::MAX);
     let member = |column: usize| {
@@ -84,7 +84,7 @@ fn rotation_vector(r: &Matrix3<f64>) -> Vector3<f64> {
     match (s < 1e-9, c > 0.0) {
         (false, _) => sine * (s.atan2(c) / s),
         (true, true) => sine,
-        // Half a turn, whose axis stands in the symmetric part.
+        // A rotation of 180°, whose axis is in the symmetric part.
         (true, false) => Rotation3::from_matrix_unchecked(*r).scaled_axis(),
     }
 }
@@ -166,7 +166,7 @@ impl Member {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::adjust::problem::state::Pose;
+    use crate::adjust::problem::state::ExteriorOrientation;
     use crate::noise::Noise;
     use crate::rotation::turned;
     #[cfg(target_arch = "wasm32")]
@@ -179,12 +179,12 @@ mod tests {
         let (base, turn) = (three(0.5), three(1.0));
         let mut state = State::default();
         for _ in 0..exposures {
-            let first = Pose::new(three(2.0).into(), three(1.0).into());
+            let first = ExteriorOrientation::new(three(2.0).into(), three(1.0).into());
             let m = first.matrix();
             let place = Vector3::from(first.centre) + m.transpose() * (base + three(scatter));
             let own = turned(&(Rotation3::new(turn).into_inner() * m), three(scatter));
             state.poses.push(first);
-            state.poses.push(Pose { m: super::super::state::rows(&own), centre: place.into() });
+            state.poses.push(ExteriorOrientation { m: super::super::state::rows(&own), centre: place.into() });
         }
         let exposures = (0..exposures).map(|k| (k, [2 * k, 2 * k + 1])).collect();
         (Member { column: 1, exposures, sqrt_weight: [700.0, 30.0] }, state)

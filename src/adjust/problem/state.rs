@@ -1,12 +1,9 @@
-//! Values of the unknowns, and how a step changes them.
+//! Values of the unknowns, and the frame they are in.
 
 use nalgebra::{Matrix3, Vector3};
-use std::collections::HashMap;
 
 use crate::project::{Interior, Parameter};
 use crate::rotation;
-
-use super::network::Network;
 
 /// Coordinates inside are (X - offset) / scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,14 +44,14 @@ impl Frame {
 
 /// Exterior orientation; the attitude as its matrix, object to camera, so that none is singular.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
+pub struct ExteriorOrientation {
     /// Object to camera, rows.
     pub m: [[f64; 3]; 3],
     /// Projection centre.
     pub centre: [f64; 3],
 }
 
-impl Pose {
+impl ExteriorOrientation {
     /// From a projection centre and omega, phi, kappa.
     pub fn new(centre: [f64; 3], angles: [f64; 3]) -> Self {
         Self { m: rows(&rotation::object_to_camera(angles)), centre }
@@ -73,7 +70,7 @@ impl Pose {
         [row(&self.m[0]), row(&self.m[1]), row(&self.m[2])]
     }
 
-    fn turned(&self, step: &[f64]) -> Self {
+    pub fn turned(&self, step: &[f64]) -> Self {
         let m = rotation::turned(&self.matrix(), Vector3::new(step[0], step[1], step[2]));
         Self { m: rows(&m), centre: std::array::from_fn(|a| self.centre[a] + step[3 + a]) }
     }
@@ -88,49 +85,14 @@ pub fn rows(m: &Matrix3<f64>) -> [[f64; 3]; 3] {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Photos.
-    pub poses: Vec<Pose>,
+    pub poses: Vec<ExteriorOrientation>,
     /// Interior orientations.
     pub interiors: Vec<Interior>,
     /// Points.
     pub points: Vec<[f64; 3]>,
 }
 
-/// A step: per photo turn (camera axes) and shift, per interior orientation its scaled unknowns, per point its shift.
-#[derive(Clone, Debug, Default)]
-pub struct Step {
-    /// Photos.
-    pub photos: Vec<[f64; 6]>,
-    /// Interior orientations.
-    pub interiors: Vec<Vec<f64>>,
-    /// Points.
-    pub points: Vec<[f64; 3]>,
-}
-
 impl State {
-    /// The state after a step.
-    pub fn stepped(&self, network: &Network, step: &Step) -> Self {
-        let interiors = self.interiors.iter().zip(&step.interiors).zip(&network.interiors);
-        Self {
-            poses: self.poses.iter().zip(&step.photos).map(|(pose, step)| pose.turned(step)).collect(),
-            interiors: interiors
-                .map(|((interior, step), block)| {
-                    let mut interior = *interior;
-                    for (estimated, step) in block.estimated.iter().zip(step) {
-                        let value = interior.get(estimated.parameter).unwrap_or_default();
-                        interior.set(estimated.parameter, value + step * estimated.scale);
-                    }
-                    interior
-                })
-                .collect(),
-            points: self
-                .points
-                .iter()
-                .zip(&step.points)
-                .map(|(x, step)| std::array::from_fn(|a| x[a] + step[a]))
-                .collect(),
-        }
-    }
-
     /// Whether every value is a number and every principal distance positive.
     pub fn is_sound(&self) -> bool {
         let finite = |x: &f64| x.abs() < 1e150;
@@ -143,37 +105,10 @@ impl State {
             })
     }
 
-    /// Takes over the values of another network's state for the same document, where it has them.
-    pub fn adopt(&mut self, network: &Network, other: &Self, other_network: &Network) {
-        let moved = |x: [f64; 3]| network.frame.inside(other_network.frame.outside(x));
-        let photos: HashMap<usize, usize> =
-            other_network.photos.iter().enumerate().map(|(k, photo)| (photo.index, k)).collect();
-        for (block, pose) in network.photos.iter().zip(&mut self.poses) {
-            let Some(&k) = photos.get(&block.index) else { continue };
-            *pose = Pose { m: other.poses[k].m, centre: moved(other.poses[k].centre) };
-            self.interiors[block.interior] = other.interiors[other_network.photos[k].interior];
-        }
-        let points: HashMap<usize, usize> =
-            other_network.points.iter().enumerate().map(|(k, point)| (point.index, k)).collect();
-        for (block, x) in network.points.iter().zip(&mut self.points) {
-            let Some(&k) = points.get(&block.index) else { continue };
-            let adopted = moved(other.points[k]);
-            (0..3).filter(|a| !block.fixed[*a]).for_each(|a| x[a] = adopted[a]);
-        }
-    }
-
     /// Removes the rounding that repeated turns leave in the attitudes.
     pub fn orthonormalise(&mut self) {
         for pose in &mut self.poses {
             pose.m = rows(&rotation::nearest(&pose.matrix()));
         }
-    }
-}
-
-impl Step {
-    /// Largest change of an object or projection-centre coordinate.
-    pub fn largest(&self) -> f64 {
-        let photos = self.photos.iter().flat_map(|p| &p[3..]);
-        photos.chain(self.points.iter().flatten()).fold(0.0, |most, x| x.abs().max(most))
     }
 }

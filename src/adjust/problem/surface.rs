@@ -27,7 +27,7 @@ pub struct Surface<'a> {
 }
 
 /// Axes of a plane through points, the normal last, and the sums of squares along them.
-struct Plane {
+struct PrincipalPlane {
     axes: Matrix3<f64>,
     squares: [f64; 3],
 }
@@ -82,7 +82,7 @@ impl<'a> Surface<'a> {
         found.min_by(|a, b| certain(a).total_cmp(&certain(b)))
     }
 
-    fn through(&self, around: &[usize]) -> Option<Plane> {
+    fn through(&self, around: &[usize]) -> Option<PrincipalPlane> {
         let at = |k: usize| Vector3::from(self.points[k]);
         let mean = around.iter().map(|k| at(*k)).sum::<Vector3<f64>>() / around.len() as f64;
         let centred = DMatrix::from_fn(3, around.len(), |a, n| at(around[n])[a] - mean[a]);
@@ -91,7 +91,7 @@ impl<'a> Surface<'a> {
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
         let column = |n: usize| eigen.eigenvectors.column(order[n]).clone_owned();
         let axes = Matrix3::from_fn(|row, n| column(n)[row]);
-        Some(Plane { axes, squares: order.map(|a| eigen.eigenvalues[a].max(0.0)) })
+        Some(PrincipalPlane { axes, squares: order.map(|a| eigen.eigenvalues[a].max(0.0)) })
     }
 
     /// Normal of the plane through a point and its neighbours, and its standard error in radians.
@@ -101,7 +101,7 @@ impl<'a> Surface<'a> {
         if around.len() < 4 {
             return None;
         }
-        let Plane { axes, squares } = self.through(&around)?;
+        let PrincipalPlane { axes, squares } = self.through(&around)?;
         // Sums of squares along the axes: n a², n b², (n - 3) s².
         let [most, middle, least] = squares;
         // Rounding alone leaves this of a plane.
@@ -118,7 +118,7 @@ impl<'a> Surface<'a> {
         if n < PARABOLOID + 3 {
             return None;
         }
-        let Plane { axes, squares } = self.through(&around)?;
+        let PrincipalPlane { axes, squares } = self.through(&around)?;
         let size = (squares[0] / n as f64).sqrt();
         if !(squares[1] > 1e-6 * squares[0] && size > 0.0) {
             return None;

@@ -33,7 +33,7 @@ pub fn weighted(project: &Project, px: f64) -> Result<Cow<'_, Project>> {
 /// The u in pixels with which the image residuals v of an adjustment would agree with their standard errors:
 /// u² = Σv² / Σr - mean s², over all image coordinates that took part, r their redundancy numbers.
 ///
-/// None without redundancy numbers, or where the residuals are no larger than the standard errors say.
+/// `None` without redundancy numbers, or if the residuals are not larger than the standard errors.
 pub fn estimate(project: &Project, adjustment: &Adjustment) -> Option<f64> {
     let pitches: std::collections::HashMap<&str, [f64; 2]> = project
         .photos
@@ -54,73 +54,4 @@ pub fn estimate(project: &Project, adjustment: &Adjustment) -> Option<f64> {
     }
     let square = squares / redundancy - own / count;
     (square > 0.0 && square.is_finite()).then(|| square.sqrt())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::adjust::adjust;
-    use crate::adjustment::AdjustOptions;
-    use crate::network::{Network, NetworkPoint, Station, simulate};
-    use crate::project::Interior;
-    use crate::project::{Camera, DatumKind};
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
-
-    /// Six photos around a block of points; every image coordinate is off by 0.12 px and says 0.02.
-    fn project() -> Project {
-        let camera = Camera { pixel_pitch: Some([0.005; 2]), ..Camera::new("c", 2000, 1600, Interior::brown(12.0)) };
-        let point = |k: u32| NetworkPoint {
-            id: k.to_string(),
-            xyz: [f64::from(k % 6) * 100.0, f64::from(k / 6 % 6) * 100.0, f64::from(k * 7 % 5) * 40.0],
-            ..NetworkPoint::default()
-        };
-        let station = |k: u32| {
-            let turn = f64::from(k);
-            let position = [250.0 + 900.0 * turn.cos(), 250.0 + 900.0 * turn.sin(), 900.0];
-            Station::aimed(format!("s{k}"), "c", position, [250.0, 250.0, 80.0], turn)
-        };
-        let mut project = simulate(&Network {
-            cameras: vec![camera],
-            stations: (0..6).map(station).collect(),
-            points: (0..36).map(point).collect(),
-            sigma: Sigma::One(0.02),
-            noise: Some(Sigma::One(0.12)),
-            ..Network::default()
-        })
-        .unwrap();
-        project.datum.kind = DatumKind::Free;
-        project
-    }
-
-    #[test]
-    fn what_is_estimated_makes_the_residuals_agree() {
-        let project = project();
-        let with = |unmodelled| {
-            let options = AdjustOptions { unmodelled, ..AdjustOptions::default() };
-            adjust(&project, &options, &mut |_| true).unwrap()
-        };
-        let plain = with(0.0);
-        assert!(plain.sigma0.unwrap() > 5.0);
-        let found = estimate(&project, &plain).unwrap();
-        // 432 coordinates: 0.118 within four of its standard errors.
-        assert!((found - (0.12f64.powi(2) - 0.02f64.powi(2)).sqrt()).abs() < 0.02, "{found}");
-        let weighted = with(found);
-        assert!((weighted.sigma0.unwrap() - 1.0).abs() < 0.01, "{:?}", weighted.sigma0);
-        assert!(weighted.global_test.unwrap().passed);
-        // One sigma for all coordinates moves no value.
-        for (a, b) in plain.points.iter().zip(&weighted.points) {
-            assert!(a.xyz.iter().zip(b.xyz).all(|(a, b)| (a - b).abs() < 1e-6), "{a:?} {b:?}");
-        }
-    }
-
-    #[test]
-    fn impossible_numbers_are_refused() {
-        let project = project();
-        for unmodelled in [-0.1, f64::NAN, f64::INFINITY] {
-            let options = AdjustOptions { unmodelled, ..AdjustOptions::default() };
-            let error = adjust(&project, &options, &mut |_| true).unwrap_err();
-            assert_eq!(error.place(), Place::field("unmodelled"));
-        }
-    }
 }

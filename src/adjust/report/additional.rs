@@ -1,7 +1,8 @@
 //! Observations of other kinds than image coordinates in the result: residuals, reliability, exclusions.
 
 use crate::adjust::gross_errors::start::LEAST;
-use crate::adjust::problem::additional::{self, Key, Observed};
+use crate::adjust::problem::additional::{self, AdditionalObservation};
+use crate::adjust::problem::left_out::Key;
 use crate::adjust::problem::network::InteriorBlock;
 use crate::adjustment::GivenObservation;
 use crate::statistics::reliability::Reliability;
@@ -13,7 +14,7 @@ impl Solved<'_> {
     /// All additional observations; those that were taken out come last.
     pub fn additional(&self) -> Vec<GivenObservation> {
         let full = self.cofactors.filter(|c| !c.rays.is_empty());
-        let one = |(k, observed): (usize, Observed)| {
+        let one = |(k, observed): (usize, AdditionalObservation)| {
             let unit = observed.unit(self.network);
             let sqrt_weight = observed.sqrt_weight(self.network);
             let factor = self.additional_factors.get(k).copied().unwrap_or(1.0);
@@ -49,7 +50,7 @@ impl Solved<'_> {
         used.chain(self.network.left_out.iter().filter_map(|key| self.left_out(*key))).collect()
     }
 
-    /// An additional observation that takes no part any more, beside the adjusted value; it was one by its standard error in the document.
+    /// An additional observation that is not used any more, beside the adjusted value; it was one by its standard error in the document.
     fn left_out(&self, key: Key) -> Option<GivenObservation> {
         let network = self.network;
         let point = |index: usize| network.points.iter().position(|p| p.index == index).map(|k| self.point(k));

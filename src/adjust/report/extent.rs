@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
-/// Most points of a box that is not divided further.
+/// Maximum number of points of a box that is not divided further.
 const LEAF: usize = 16;
 
 /// Distance of two points.
@@ -22,17 +22,17 @@ pub fn largest_distance(mut points: Vec<[f64; 3]>) -> f64 {
     let all = 0..points.len();
     divide(&mut points, all, &mut boxes);
     let mut best = 0.0;
-    let mut pairs = BinaryHeap::from([Pair::new(&boxes, 0, 0)]);
+    let mut pairs = BinaryHeap::from([BoxPair::new(&boxes, 0, 0)]);
     while let Some(pair) = pairs.pop().filter(|pair| pair.bound > best) {
         let (a, b) = (&boxes[pair.a], &boxes[pair.b]);
         match (a.halves, b.halves) {
             (Some([low, high]), _) if pair.a == pair.b => {
-                pairs.extend([(low, low), (low, high), (high, high)].map(|(a, b)| Pair::new(&boxes, a, b)));
+                pairs.extend([(low, low), (low, high), (high, high)].map(|(a, b)| BoxPair::new(&boxes, a, b)));
             }
             (Some(halves), _) if a.points.len() >= b.points.len() => {
-                pairs.extend(halves.map(|half| Pair::new(&boxes, half, pair.b)));
+                pairs.extend(halves.map(|half| BoxPair::new(&boxes, half, pair.b)));
             }
-            (_, Some(halves)) => pairs.extend(halves.map(|half| Pair::new(&boxes, pair.a, half))),
+            (_, Some(halves)) => pairs.extend(halves.map(|half| BoxPair::new(&boxes, pair.a, half))),
             _ => {
                 for p in &points[a.points.clone()] {
                     best = points[b.points.clone()].iter().map(|q| distance(p, q)).fold(best, f64::max);
@@ -74,13 +74,13 @@ fn divide(points: &mut [[f64; 3]], range: Range<usize>, boxes: &mut Vec<Boxed>) 
 }
 
 /// Two boxes, ordered by the largest distance that they could hold.
-struct Pair {
+struct BoxPair {
     bound: f64,
     a: usize,
     b: usize,
 }
 
-impl Pair {
+impl BoxPair {
     fn new(boxes: &[Boxed], a: usize, b: usize) -> Self {
         let reach = |k: usize| {
             let (a, b) = (&boxes[a], &boxes[b]);
@@ -90,25 +90,25 @@ impl Pair {
     }
 }
 
-impl Ord for Pair {
+impl Ord for BoxPair {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound)
     }
 }
 
-impl PartialOrd for Pair {
+impl PartialOrd for BoxPair {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Pair {
+impl PartialEq for BoxPair {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
-impl Eq for Pair {}
+impl Eq for BoxPair {}
 
 #[cfg(test)]
 mod tests {

@@ -8,7 +8,7 @@ use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::problem::state::{Frame, State};
-use crate::adjust::solve::session::{RobustVariance, Session, Solution};
+use crate::adjust::solve::session::{RigStatistics, RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
     AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckDistance,
@@ -22,11 +22,11 @@ use crate::statistics::reliability::Reliability;
 
 use super::extent::{distance, largest_distance};
 
-/// What a result is made of.
+/// Inputs of a result.
 pub struct Solved<'a> {
     /// The document.
     pub project: &'a Project,
-    /// What its rows mean.
+    /// Meaning of its rows.
     pub numbering: &'a Numbering,
     /// The network.
     pub network: &'a Network,
@@ -44,10 +44,10 @@ pub struct Solved<'a> {
     pub constraints: usize,
     /// n - u + d.
     pub redundancy: usize,
-    /// What stands for the variance factor after robust estimation.
+    /// The variance factor after robust estimation.
     pub robust: Option<RobustVariance>,
-    /// Covariances of the relative poses of the rig; empty without statistics.
-    pub relative_poses: &'a [Matrix6<f64>],
+    /// Covariances and tests of the relative poses of the rig; empty without statistics.
+    pub rig: &'a [RigStatistics],
     /// Standard errors of the distances that are compared only.
     pub check_lengths: &'a [Option<f64>],
 }
@@ -59,7 +59,7 @@ fn turn_by_angles([_, phi, kappa]: [f64; 3]) -> Matrix3<f64> {
     Matrix3::new(-cp * ck, -sk, 0.0, cp * sk, -ck, 0.0, -sp, 0.0, -1.0)
 }
 
-/// Square root of a variance, 0 where rounding made it negative.
+/// Square root of a variance, 0 if rounding made it negative.
 pub(super) fn root(variance: f64) -> f64 {
     variance.max(0.0).sqrt()
 }
@@ -93,7 +93,7 @@ impl<'a> Solved<'a> {
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: session.redundancy,
             robust: session.robust,
-            relative_poses: &solution.relative_poses,
+            rig: &solution.rig,
             check_lengths: &solution.check_lengths,
         }
     }
@@ -147,7 +147,7 @@ impl Solved<'_> {
             check_points,
             check_distances: self.check_distances(),
             given: self.additional(),
-            eccentricity: eccentric::told(self.project, self.network, self.weighting.shift),
+            eccentricity: eccentric::eccentricities(self.project, self.network, self.weighting.shift),
             ..Adjustment::default()
         }
     }
@@ -279,7 +279,7 @@ impl Solved<'_> {
         self.network.points.iter().enumerate().for_each(|(k, block)| points[block.index] = Some(k));
         let mut ray_of_row = vec![usize::MAX; self.project.observations.len()];
         self.network.rays.iter().enumerate().for_each(|(k, ray)| ray_of_row[ray.row] = k);
-        let models: Vec<_> = self.network.imaging_interiors(self.state).map(|i| camera::Model::new(&i)).collect();
+        let models: Vec<_> = self.state.interiors.iter().map(camera::Model::new).collect();
         let scale = self.frame().scale;
         let one = |(row, o): (usize, &crate::project::Observation)| {
             let mut adjusted = AdjustedObservation {
@@ -287,7 +287,7 @@ impl Solved<'_> {
                 point: o.point.clone(),
                 ..AdjustedObservation::default()
             };
-            let (photo, point) = self.numbering.sights[row];
+            let (photo, point) = self.numbering.observations[row];
             let (Some(photo), Some(point)) = (photos[photo], points[point]) else { return adjusted };
             let interior = self.network.photos[photo].interior;
             let ray = ray_of_row[row];
@@ -302,8 +302,7 @@ impl Solved<'_> {
                 (0..2).for_each(|s| measured[s] -= shift[s]);
             }
             let p = self.state.poses[photo].camera_point(&self.state.points[point]);
-            let linear =
-                models[self.network.photos[photo].imaging].and_then(|m| m.linearise(measured, p, self.weighting.place));
+            let linear = models[interior].and_then(|m| m.linearise(measured, p, self.weighting.place));
             let Some(linear) = linear.filter(|l| l.residual.iter().all(|v| v.is_finite())) else { return adjusted };
             [adjusted.vx, adjusted.vy] = linear.residual.map(Some);
             let Some(network_ray) = self.network.rays.get(ray) else { return adjusted };

@@ -7,7 +7,7 @@
 //! D. Marquardt, J. SIAM 11 (1963); K. Madsen, H. B. Nielsen, O. Tingleff 2004.
 
 use crate::adjust::equations::context::Context;
-use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::normal::ReducedNormalEquations;
 use crate::adjust::equations::right_hand_side::cost;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
@@ -22,7 +22,7 @@ const KEEPING: f64 = 0.01;
 const SHRINKING: f64 = 0.1;
 /// First damping when an undamped step fails, and below which an undamped step is tried at first.
 const FIRST_DAMPING: f64 = 1e-4;
-/// Every undamped step that fails asks for a damping this much smaller before the next one is tried, else a long way to the
+/// After each failed undamped step, the damping must become smaller by this factor before the next one is tried, else a long way to the
 /// minimum alternates between steps that fail and steps that do not; and the least that is asked for.
 const PATIENCE: f64 = 0.1;
 const LEAST_DAMPING: f64 = 1e-8;
@@ -32,7 +32,7 @@ const LEAST_GAIN: f64 = 1e-2;
 /// Damping beyond which no step is left to try.
 const LARGEST_DAMPING: f64 = 1e12;
 
-/// What the normal equations hold for the present state.
+/// Contents of the normal equations at the present state.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ready {
     /// Nothing.
@@ -43,8 +43,8 @@ enum Ready {
     Renewed,
 }
 
-/// What the iteration works on.
-pub struct Setting<'a> {
+/// Input of the iteration.
+pub struct IterationSetup<'a> {
     /// The network at its first values.
     pub context: Context<'a>,
     /// Photo unknowns that take up a free datum.
@@ -57,8 +57,8 @@ pub struct Setting<'a> {
     pub negligible: f64,
 }
 
-/// How it ended.
-pub struct Outcome {
+/// Result of the iteration.
+pub struct IterationResult {
     /// Last accepted state.
     pub state: State,
     /// Why it ended.
@@ -67,9 +67,13 @@ pub struct Outcome {
     pub singular: Vec<usize>,
 }
 
-/// Iterates; `normal` is working space. `log` receives every iteration and says whether to go on.
-pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(Iteration) -> bool) -> Outcome {
-    let Setting { context, pins, redundancy, max_iterations, negligible } = *setting;
+/// Iterates; `normal` is working space. `log` receives every iteration and returns whether to continue.
+pub fn iterate(
+    setting: &IterationSetup<'_>,
+    normal: &mut ReducedNormalEquations,
+    log: &mut dyn FnMut(Iteration) -> bool,
+) -> IterationResult {
+    let IterationSetup { context, pins, redundancy, max_iterations, negligible } = *setting;
     let Context { network, layout, .. } = context;
     let mut state = context.state.clone();
     let rounding = rounding(network);
@@ -83,7 +87,7 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
     let mut singular = Vec::new();
     // Length of the last full step in standard errors.
     let mut length: Option<f64> = None;
-    let outcome = |state, termination, singular| Outcome { state, termination, singular };
+    let outcome = |state, termination, singular| IterationResult { state, termination, singular };
     if ready == Ready::No {
         return outcome(state, Termination::Diverged, singular);
     }

@@ -3,26 +3,29 @@
 mod calibration;
 mod rig;
 
-use nalgebra::{DMatrix, Matrix6, Vector3};
+use nalgebra::{DMatrix, Vector3};
 
 use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
 use crate::adjust::diagnosis::{rank_defect, slips, structure};
 use crate::adjust::equations::back_substitution::Full;
 use crate::adjust::equations::context::{Context, Weighting};
-use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::normal::ReducedNormalEquations;
 use crate::adjust::equations::ordering::{Layout, layout};
 use crate::adjust::equations::right_hand_side;
-use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::eccentric;
+use crate::adjust::problem::left_out::RejectedObservations;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::numbering::Numbering;
-use crate::adjust::problem::state::{State, Step};
+use crate::adjust::problem::state::State;
+use crate::adjust::problem::step::Step;
 use crate::adjust::statistics::cofactors::{Cofactors, cofactors};
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Distance, Project};
 
-use super::iteration::{NEGLIGIBLE, Outcome, Setting, iterate, rounding};
+pub use rig::RigStatistics;
+
+use super::iteration::{IterationResult, IterationSetup, NEGLIGIBLE, iterate, rounding};
 
 /// The network at the present values; not a method, since the normal equations are borrowed beside it.
 macro_rules! context {
@@ -44,7 +47,7 @@ const POLISHED: f64 = 1e-8;
 /// Steps with one factor on the way there.
 const MOST_POLISHING: usize = 4;
 
-/// vᵀPv that rises by more than this part is no polish.
+/// If vᵀPv increases by more than this share, the step is not accepted as a final refinement.
 const RISING: f64 = 1e-6;
 
 /// Progress to the caller: the iterations so far and whether to go on.
@@ -59,7 +62,7 @@ pub struct Log<'a> {
 pub struct Session<'a> {
     /// The document.
     pub project: &'a Project,
-    /// What its rows mean.
+    /// Meaning of its rows.
     pub numbering: &'a Numbering,
     /// The network.
     pub network: Network,
@@ -71,14 +74,14 @@ pub struct Session<'a> {
     pub datum: Option<FreeDatum>,
     /// n - u + d.
     pub redundancy: usize,
-    normal: Normal,
+    normal: ReducedNormalEquations,
     /// Square roots of robust factors, per ray; empty for none.
     pub weights: Vec<[f64; 2]>,
     /// Square roots of robust factors of the other observations, contained in the network's weights; empty for none.
     pub additional_factors: Vec<f64>,
     /// Eccentricity corrections, per ray; empty for none.
     pub shift: Vec<[f64; 2]>,
-    /// What stands for the variance factor after robust estimation.
+    /// The variance factor after robust estimation.
     pub robust: Option<RobustVariance>,
 }
 
@@ -91,7 +94,7 @@ pub struct RobustVariance {
     pub variance: f64,
 }
 
-/// What is known at the end.
+/// State at the end.
 pub struct Solution {
     /// vᵀPv.
     pub cost: f64,
@@ -99,8 +102,8 @@ pub struct Solution {
     pub cofactors: Option<Cofactors>,
     /// Covariance of the points asked for.
     pub covariance: Option<Covariance>,
-    /// Covariances of the relative poses of the rig, in the network's order of its cameras.
-    pub relative_poses: Vec<Matrix6<f64>>,
+    /// Covariances and tests of the relative poses of the rig, in the network's order of its cameras.
+    pub rig: Vec<RigStatistics>,
     /// Standard errors of the check distances, in the document's order of these.
     pub check_lengths: Vec<Option<f64>>,
 }
@@ -108,7 +111,7 @@ pub struct Solution {
 impl Solution {
     /// Without statistics.
     fn of_cost(cost: f64) -> Self {
-        Self { cost, cofactors: None, covariance: None, relative_poses: Vec::new(), check_lengths: Vec::new() }
+        Self { cost, cofactors: None, covariance: None, rig: Vec::new(), check_lengths: Vec::new() }
     }
 }
 
@@ -122,14 +125,14 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// As [`super::adjust`].
-    pub fn new(project: &'a Project, numbering: &'a Numbering, left_out: &LeftOut) -> Result<Self> {
+    pub fn new(project: &'a Project, numbering: &'a Numbering, left_out: &RejectedObservations) -> Result<Self> {
         let (mut network, state) = Network::new(project, numbering, left_out)?;
         let layout = layout(&mut network);
         structure::structure(project, &network, &state)?;
         let datum = free::free_datum(&network, &state)?;
         let constraints = datum.as_ref().map_or(0, |d| d.defect);
         let (n, u) = (network.observations_count() + constraints, network.unknowns());
-        let normal = Normal::new(&network, &layout);
+        let normal = ReducedNormalEquations::new(&network, &layout);
         let mut session = Self {
             project,
             numbering,
@@ -168,7 +171,7 @@ impl<'a> Session<'a> {
         context!(self, place)
     }
 
-    /// The step that the factored equations still ask for at the present values: what [`Self::finish`] leaves as negligible. None where
+    /// The step that the factored equations still ask for at the present values: what [`Self::finish`] leaves as negligible. `None` if
     /// a projection does not exist.
     pub fn remaining_step(&mut self, place: ResidualPlace) -> Option<Step> {
         let sound = self.normal.renew(context!(self, place));
@@ -176,7 +179,7 @@ impl<'a> Session<'a> {
     }
 
     /// The equations that [`Self::finish`] has factored, with their layout.
-    pub fn factored(&self) -> (&Normal, &Layout) {
+    pub fn factored(&self) -> (&ReducedNormalEquations, &Layout) {
         (&self.normal, &self.layout)
     }
 
@@ -213,7 +216,7 @@ impl<'a> Session<'a> {
         if singular && termination != Termination::Stopped { Err(self.rank_defect()) } else { Ok(termination) }
     }
 
-    /// Iterates to steps shorter than `negligible` standard errors; the second value tells whether the equations stayed
+    /// Iterates to steps shorter than `negligible` standard errors; the second value is whether the equations stayed
     /// singular.
     pub fn steps(
         &mut self,
@@ -223,14 +226,14 @@ impl<'a> Session<'a> {
         each: &mut dyn FnMut(Iteration) -> bool,
     ) -> (Termination, bool) {
         let pins = self.pins();
-        let setting = Setting {
+        let setting = IterationSetup {
             context: context!(self, place),
             pins: &pins,
             redundancy: self.redundancy,
             max_iterations,
             negligible,
         };
-        let Outcome { state, termination, singular } = iterate(&setting, &mut self.normal, each);
+        let IterationResult { state, termination, singular } = iterate(&setting, &mut self.normal, each);
         self.state = state;
         self.state.orthonormalise();
         if !singular.is_empty() {
@@ -246,7 +249,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn without(&self, left_out: &LeftOut) -> Result<Self> {
+    pub fn without(&self, left_out: &RejectedObservations) -> Result<Self> {
         let mut session = Self::new(self.project, self.numbering, left_out)?;
         session.state.adopt(&session.network, &self.state, &self.network);
         Ok(session)
@@ -255,7 +258,7 @@ impl<'a> Session<'a> {
     /// Weighted squares and cofactors at the present values, which a converged iteration has polished by a last step.
     ///
     /// # Errors
-    /// [`Error::RankDefect`]; [`Error::Invalid`] where a point has no image.
+    /// [`Error::RankDefect`]; [`Error::Invalid`] if a point has no image.
     pub fn finish(&mut self, options: &AdjustOptions, polish: bool) -> Result<Solution> {
         let pins = self.pins();
         let (mut last, mut refused) = (None, None);
@@ -305,15 +308,15 @@ impl<'a> Session<'a> {
             Some(self.covariance_of(&options.covariance_of, variance)?)
         };
         let check_lengths = self.check_lengths(variance);
-        let relative_poses = self.relative_poses(cost)?;
+        let rig = self.rig_statistics(cost)?;
         if let Some(last) = last {
             self.state = last;
         }
-        Ok(Solution { cost, cofactors, covariance, relative_poses, check_lengths })
+        Ok(Solution { cost, cofactors, covariance, rig, check_lengths })
     }
 
-    /// The state after a few steps with the factor at hand, the last of them negligible, and whether the first was already,
-    /// so that the factor serves for the cofactors. None where the steps lead nowhere: of unknowns that are hardly determined they
+    /// The state after a few steps with the present factor, the last of them negligible, and whether the first was already,
+    /// so that the factor serves for the cofactors. `None` if the steps lead nowhere: of unknowns that are hardly determined they
     /// are rounding, and may lead far off.
     fn polished(&mut self, place: ResidualPlace) -> Result<(Option<State>, bool)> {
         let limit = POLISHED * POLISHED * self.normal.cost / self.redundancy.max(1) as f64;
@@ -350,10 +353,10 @@ impl<'a> Session<'a> {
     }
 
     /// Covariance of functions of points, by their derivatives, with all points, in the network's order of points; of weighted
-    /// squares `cost`. The equations are those that [`Self::finish`] has factored: Q' f = S Q Sᵀ f, a solution for each function.
+    /// squares `cost`. The equations are the errors of [`Self::finish`] factored: Q' f = S Q Sᵀ f, a solution for each function.
     ///
     /// # Errors
-    /// [`Error::Invalid`] where the datum's points have come together.
+    /// [`Error::Invalid`] if the datum's points have come together.
     pub fn carried(&self, functions: &[Vec<(usize, Vector3<f64>)>], cost: f64) -> Result<Vec<Vec<Vector3<f64>>>> {
         let constraint = self.constraint()?;
         let vectors = functions.iter().map(|function| {

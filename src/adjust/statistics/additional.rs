@@ -1,11 +1,11 @@
 //! Cofactors and external reliability of additional observations.
 
-use crate::adjust::problem::additional::Observed;
+use crate::adjust::problem::additional::AdditionalObservation;
 use crate::adjust::problem::network::Network;
 
 use super::cofactors::Cofactors;
 
-impl Observed {
+impl AdditionalObservation {
     /// Cofactor of the weighted adjusted observation, 1 - r.
     pub fn cofactor(self, network: &Network, cofactors: &Cofactors) -> f64 {
         let squared = self.sqrt_weight(network).powi(2);
@@ -19,7 +19,7 @@ impl Observed {
         }
     }
 
-    /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. None where it
+    /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. `None` if it
     /// acts on no point.
     pub fn influence(self, network: &Network, cofactors: &Cofactors) -> Option<(f64, usize)> {
         let sqrt_weight = self.sqrt_weight(network);

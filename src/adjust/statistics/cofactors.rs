@@ -13,15 +13,17 @@ use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
 use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
 use crate::adjust::datum::s_transformation::{carried, transformation, transformed};
-use crate::adjust::equations::collinearity::{Linearisation, Row};
+use crate::adjust::equations::collinearity::{CollinearityRows, Linearisation};
 use crate::adjust::equations::context::Context;
-use crate::adjust::equations::normal::{Normal, with_interior_size};
+use crate::adjust::equations::normal::{ReducedNormalEquations, with_interior_size};
 use crate::adjust::linear::cholesky3::{backward3, forward3};
 use crate::adjust::linear::kernel::TILE;
 use crate::adjust::linear::tiles::TileMatrix;
 use crate::adjust::problem::additional::distance_row;
 
-use super::external_reliability::{Alignment, Blocks, Carried, Influence, Taken, length};
+use super::external_reliability::{
+    Blocks, DatumCofactors, DatumCorrections, ExternalEffects, ShiftTransformation, length,
+};
 use super::ray_cofactors::{RayCofactors, at_photo};
 
 /// Cofactors in the scaled unknowns of the frame of the adjustment.
@@ -40,14 +42,14 @@ pub struct Cofactors {
     /// Per ray and side: shift of its own point, in the datum, by a unit of weighted observation error. Empty unless wanted.
     pub influence: Vec<[f64; 2]>,
     /// Shifts by given observations. Empty unless wanted.
-    pub additional_influence: Influence,
+    pub additional_influence: ExternalEffects,
     /// Per distance: cofactor of the weighted adjusted distance.
     pub bars: Vec<f64>,
     /// Per point and axis before the S-transformation, for given coordinates.
     pub additional_points: Vec<[f64; 3]>,
 }
 
-/// Beyond this a cofactor's products with scales and variances are no numbers any more.
+/// Beyond this a cofactor's products with scales and variances overflow.
 const LARGEST: f64 = 1e150;
 
 impl Cofactors {
@@ -63,18 +65,23 @@ impl Cofactors {
     }
 }
 
-/// Computes cofactors from undamped, factored equations at `state`; none where a projection does not exist.
-pub fn cofactors(normal: &Normal, context: Context<'_>, datum: Option<&FreeDatum>, full: bool) -> Option<Cofactors> {
+/// Computes cofactors from undamped, factored equations at `state`; `None` if a projection does not exist.
+pub fn cofactors(
+    normal: &ReducedNormalEquations,
+    context: Context<'_>,
+    datum: Option<&FreeDatum>,
+    full: bool,
+) -> Option<Cofactors> {
     with_interior_size!(context.network, compute(normal, context, datum, full))
 }
 
-/// A block of the inverse: numbers of the first index side by side, or of the second.
-pub struct Block<'a> {
+/// A block of the inverse, stored by columns, or by rows if `turned`.
+pub struct CofactorBlock<'a> {
     data: &'a [f64],
     turned: bool,
 }
 
-impl Block<'_> {
+impl CofactorBlock<'_> {
     #[inline(always)]
     pub fn get(&self, i: usize, j: usize) -> f64 {
         if self.turned { self.data[i * TILE + j] } else { self.data[j * TILE + i] }
@@ -86,14 +93,14 @@ impl Block<'_> {
     }
 }
 
-pub fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
+pub fn block(q: &TileMatrix, row: usize, column: usize) -> CofactorBlock<'_> {
     let turned = row < column;
     let at = if turned { q.place(column, row) } else { q.place(row, column) };
-    Block { data: &q.data()[at..], turned }
+    CofactorBlock { data: &q.data()[at..], turned }
 }
 
 fn compute<const N: usize>(
-    normal: &Normal,
+    normal: &ReducedNormalEquations,
     context: Context<'_>,
     datum: Option<&FreeDatum>,
     full: bool,
@@ -108,16 +115,16 @@ fn compute<const N: usize>(
     let mut result = Cofactors {
         rays: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
         influence: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
-        additional_influence: if full { Influence::new(network) } else { Influence::default() },
+        additional_influence: if full { ExternalEffects::new(network) } else { ExternalEffects::default() },
         ..Cofactors::default()
     };
     let blocks = Blocks { context, transformation: transformation.as_ref() };
     reduced_blocks(&mut result, &blocks, &inverse);
 
-    let alignment = transformation.as_ref().map(|t| Alignment::<N>::new(t, context));
+    let alignment = transformation.as_ref().map(|t| ShiftTransformation::<N>::new(t, context));
     let mut room = Vec::new();
     let mut rays = RayCofactors::<N>::default();
-    let mut taken: Vec<Taken> = Vec::new();
+    let mut taken: Vec<DatumCorrections> = Vec::new();
     let mut behind = 0;
     for (point, network_point) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;
@@ -133,7 +140,7 @@ fn compute<const N: usize>(
         let at_this_point = transformation.as_ref().map(|t| {
             let own = carried(t, datum, point);
             let from_reduced = rays.carried(&taken);
-            let mut v: Carried = [[0.0; 3]; SIMILARITY];
+            let mut v: DatumCofactors = [[0.0; 3]; SIMILARITY];
             for (j, (v, own)) in v.iter_mut().zip(own).enumerate() {
                 let direct = forward3(&l, own);
                 *v = backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m][j]));
@@ -221,7 +228,7 @@ fn push_point(
 fn reduced_square<const N: usize>(
     Context { network, layout, .. }: Context<'_>,
     inverse: &TileMatrix,
-    row: &Row<N>,
+    row: &CollinearityRows<N>,
     side: usize,
 ) -> f64 {
     let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
@@ -248,9 +255,9 @@ fn kept_point<const N: usize>(
     result: &mut Cofactors,
     blocks: &Blocks<'_>,
     inverse: &TileMatrix,
-    alignment: Option<&Alignment<'_, N>>,
+    alignment: Option<&ShiftTransformation<'_, N>>,
     point: usize,
-    rows: &[Row<N>],
+    rows: &[CollinearityRows<N>],
     full: bool,
 ) -> Matrix3<f64> {
     let &Blocks { context, transformation } = blocks;
@@ -266,7 +273,7 @@ fn kept_point<const N: usize>(
     if full {
         result.additional_influence.kept(blocks, inverse, point);
         result.additional_influence.own(network, point, |a| q.column(a).into());
-        let mut v: Carried = [[0.0; 3]; SIMILARITY];
+        let mut v: DatumCofactors = [[0.0; 3]; SIMILARITY];
         for (v, reduced) in v.iter_mut().zip(transformation.iter().flat_map(|t| &t.v)) {
             v.copy_from_slice(&reduced[place..place + 3]);
         }

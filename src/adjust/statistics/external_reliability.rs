@@ -6,9 +6,9 @@
 //! of the photo, the points that the camera sees.
 
 use crate::adjust::datum::free::{SIMILARITY, at_point};
-use crate::adjust::datum::s_transformation::Transformation;
+use crate::adjust::datum::s_transformation::STransformation;
 use crate::adjust::equations::back_substitution::Own;
-use crate::adjust::equations::collinearity::Row;
+use crate::adjust::equations::collinearity::CollinearityRows;
 use crate::adjust::equations::context::Context;
 use crate::adjust::linear::blocks::add_rows;
 use crate::adjust::linear::cholesky3::backward3;
@@ -18,12 +18,12 @@ use crate::adjust::problem::additional::distance_row;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 
-/// Length of the largest shift so far, and whose it is; `usize::MAX` for nobody's.
+/// Length of the largest shift so far, and its point; `usize::MAX` for none.
 pub type Largest = (f64, usize);
 
-/// Shifts by units of given observations, unweighted except for distances.
+/// Largest shift caused by a unit error of each given observation, unweighted except for distances.
 #[derive(Clone, Debug, Default)]
-pub struct Influence {
+pub struct ExternalEffects {
     /// Per point and axis of its given coordinates.
     pub points: Vec<[Largest; 3]>,
     /// Per photo and axis of its projection centre.
@@ -37,28 +37,28 @@ pub struct Influence {
 const NOBODY: Largest = (0.0, usize::MAX);
 
 /// (DᵀG)⁻¹DᵀQ at one point: per direction of the datum a vector over its axes.
-pub type Carried = [[f64; 3]; SIMILARITY];
+pub type DatumCofactors = [[f64; 3]; SIMILARITY];
 
-/// What the datum takes off the shift of a point: G at the point times (DᵀG)⁻¹DᵀQ aᵀ.
+/// Correction of the shift of a point by the datum: G at the point times (DᵀG)⁻¹DᵀQ aᵀ.
 fn align(state: &State, point: usize, taken: &[f64; SIMILARITY], shift: &mut [f64; 3]) {
     for (shift, directions) in shift.iter_mut().zip(at_point(&state.points[point])) {
         *shift -= directions.iter().zip(taken).map(|(g, t)| g * t).sum::<f64>();
     }
 }
 
-/// What the datum takes off per direction, for both sides of a ray; the last number is 0.
-pub type Taken = [[f64; 8]; 2];
+/// Datum correction for each direction and both coordinates of an observation; the last number is 0.
+pub type DatumCorrections = [[f64; 8]; 2];
 
-/// Brings shifts by image coordinates into the datum; its vectors side by side for every unknown.
-pub struct Alignment<'a, const N: usize> {
+/// Transforms shifts caused by image coordinates into the datum; the vectors of each unknown are contiguous.
+pub struct ShiftTransformation<'a, const N: usize> {
     state: &'a State,
     photos: Vec<[[f64; 8]; 6]>,
     interiors: Vec<[[f64; 8]; N]>,
 }
 
-impl<'a, const N: usize> Alignment<'a, N> {
+impl<'a, const N: usize> ShiftTransformation<'a, N> {
     /// Lays out the vectors.
-    pub fn new(t: &Transformation, Context { network, layout, state, .. }: Context<'a>) -> Self {
+    pub fn new(t: &STransformation, Context { network, layout, state, .. }: Context<'a>) -> Self {
         let at = |place: usize| std::array::from_fn(|j| t.v.get(j).map_or(0.0, |v| v[place]));
         let photos = layout.photo.iter().map(|photo| std::array::from_fn(|k| at(photo + k))).collect();
         let interiors = layout.interior.iter().zip(&network.interiors).map(|(place, interior)| {
@@ -69,7 +69,7 @@ impl<'a, const N: usize> Alignment<'a, N> {
 
     /// V·rowᵀ of both sides over the photo and interior part of a row.
     #[inline(never)]
-    pub fn reduced(&self, row: &Row<N>) -> Taken {
+    pub fn reduced(&self, row: &CollinearityRows<N>) -> DatumCorrections {
         let mut taken = [[0.0; 8]; 2];
         for (side, taken) in taken.iter_mut().enumerate() {
             add_rows::<false, 6, 8>(taken, &row.pose[side], &self.photos[row.photo]);
@@ -85,8 +85,8 @@ impl<'a, const N: usize> Alignment<'a, N> {
     #[inline(never)]
     pub fn align(
         &self,
-        (point, at_point): (usize, &Carried),
-        (row, taken): (&Row<N>, &Taken),
+        (point, at_point): (usize, &DatumCofactors),
+        (row, taken): (&CollinearityRows<N>, &DatumCorrections),
         shifts: &mut [[f64; 3]; 2],
     ) {
         for (side, shift) in shifts.iter_mut().enumerate() {
@@ -110,12 +110,12 @@ fn keep(largest: &mut Largest, length: f64, point: usize) {
     }
 }
 
-/// What a point's blocks of the cofactor matrix are read from.
+/// Source of a point's blocks of the cofactor matrix.
 pub struct Blocks<'a> {
     /// The network at its present values.
     pub context: Context<'a>,
     /// The datum, if any.
-    pub transformation: Option<&'a Transformation>,
+    pub transformation: Option<&'a STransformation>,
 }
 
 impl Blocks<'_> {
@@ -147,7 +147,7 @@ impl Blocks<'_> {
     }
 }
 
-impl Influence {
+impl ExternalEffects {
     /// Every shift.
     pub fn shifts(&self) -> impl Iterator<Item = f64> {
         let given = self.points.iter().chain(&self.photos).flatten();

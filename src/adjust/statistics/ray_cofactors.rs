@@ -14,26 +14,26 @@
 use std::hint::black_box;
 use wide::f64x2;
 
-use crate::adjust::equations::back_substitution::{Eliminated, Own};
-use crate::adjust::equations::collinearity::Row;
+use crate::adjust::equations::back_substitution::{EliminatedPoints, Own};
+use crate::adjust::equations::collinearity::CollinearityRows;
 use crate::adjust::equations::ordering::Layout;
 use crate::adjust::linear::blocks::add_rows;
 use crate::adjust::linear::cholesky3::{backward3, forward3};
 use crate::adjust::linear::kernel::TILE;
-use crate::adjust::linear::tiles::{Line, TileMatrix};
+use crate::adjust::linear::tiles::{TileMatrix, TileRow};
 use crate::adjust::problem::network::Network;
 
 use super::cofactors::block;
-use super::external_reliability::Taken;
+use super::external_reliability::DatumCorrections;
 
 /// Two rows over the axes of a point and a zero.
-type Pair = [[f64; 4]; 2];
+type RayRows = [[f64; 4]; 2];
 
 /// The rays of one point.
 #[derive(Default)]
 pub struct RayCofactors<const N: usize> {
-    b: Vec<Pair>,
-    c: Vec<Pair>,
+    b: Vec<RayRows>,
+    c: Vec<RayRows>,
     /// Diagonals of P_ii.
     own: Vec<[f64; 2]>,
     /// Per interior orientation of the point, its numbers of QZ.
@@ -51,9 +51,9 @@ impl<const N: usize> RayCofactors<N> {
         &mut self,
         inverse: &TileMatrix,
         layout: &Layout,
-        eliminated: &Eliminated,
+        eliminated: &EliminatedPoints,
         point: usize,
-        rows: &[Row<N>],
+        rows: &[CollinearityRows<N>],
     ) {
         let l = &eliminated.factors[point].l;
         self.b.clear();
@@ -64,7 +64,7 @@ impl<const N: usize> RayCofactors<N> {
             })
         }));
         self.c.clear();
-        self.c.resize(rows.len(), Pair::default());
+        self.c.resize(rows.len(), RayRows::default());
         self.own.clear();
         self.own.resize(rows.len(), [0.0; 2]);
         self.columns.clear();
@@ -90,9 +90,9 @@ impl<const N: usize> RayCofactors<N> {
         &mut self,
         inverse: &TileMatrix,
         layout: &Layout,
-        eliminated: &Eliminated,
+        eliminated: &EliminatedPoints,
         point: usize,
-        rows: &[Row<N>],
+        rows: &[CollinearityRows<N>],
     ) {
         let place = |q: &Own| (layout.interior[q.interior], q.length);
         self.interiors.clear();
@@ -131,7 +131,7 @@ impl<const N: usize> RayCofactors<N> {
 
     /// ZᵀVᵀ of the datum's vectors V, from V·rowᵀ of every ray: Σ Bᵀ(V·rowᵀ)ᵀ.
     #[inline(never)]
-    pub fn carried(&self, taken: &[Taken]) -> [[f64; 8]; 3] {
+    pub fn carried(&self, taken: &[DatumCorrections]) -> [[f64; 8]; 3] {
         let mut sum = [[0.0; 8]; 3];
         for (b, taken) in self.b.iter().zip(taken) {
             for (m, sum) in sum.iter_mut().enumerate() {
@@ -160,7 +160,7 @@ pub fn at_photo<const N: usize>(
     inverse: &TileMatrix,
     network: &Network,
     layout: &Layout,
-    eliminated: &Eliminated,
+    eliminated: &EliminatedPoints,
     point: usize,
     photo: usize,
 ) -> [[f64; 6]; 3] {
@@ -221,10 +221,10 @@ fn dot<const C: usize>(a: &[f64; C], b: &[f64; C]) -> f64 {
 #[inline(never)]
 fn among_photos<const N: usize>(
     inverse: &TileMatrix,
-    line: Line,
+    line: TileRow,
     columns: &[(u32, u32)],
-    rows: &[Row<N>],
-    b: &[Pair],
+    rows: &[CollinearityRows<N>],
+    b: &[RayRows],
     p: &mut [[f64x2; 2]],
 ) -> [f64x2; 3] {
     let six = black_box(6).min(6);
@@ -257,7 +257,7 @@ fn among_photos<const N: usize>(
 
 /// C_k += P_ikᵀ B_i for the rays before i.
 #[inline(never)]
-fn add_products(p: &[[f64x2; 2]], b: &Pair, c: &mut [Pair]) {
+fn add_products(p: &[[f64x2; 2]], b: &RayRows, c: &mut [RayRows]) {
     let b = b.map(|b| [pair(&b, 0), pair(&b, 2)]);
     for (p, c) in p.iter().zip(c) {
         for (p, c) in p.iter().zip(c) {
@@ -271,7 +271,7 @@ fn add_products(p: &[[f64x2; 2]], b: &Pair, c: &mut [Pair]) {
 
 /// K.
 #[inline(never)]
-fn inner(b: &[Pair], c: &[Pair]) -> [[f64; 3]; 3] {
+fn inner(b: &[RayRows], c: &[RayRows]) -> [[f64; 3]; 3] {
     let mut k = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
     for (b, c) in b.iter().zip(c) {
         for (m, k) in k.iter_mut().enumerate() {
@@ -285,10 +285,10 @@ fn inner(b: &[Pair], c: &[Pair]) -> [[f64; 3]; 3] {
 /// the ray, Q_qq; returns what the diagonal of P_ii gains.
 #[inline(never)]
 fn with_interior<const N: usize, const STRIDE: usize>(
-    (row, b): (&Row<N>, &Pair),
+    (row, b): (&CollinearityRows<N>, &RayRows),
     (cross, own): (&[f64], Option<&[[f64; N]; N]>),
     u: &[[f64; N]; 3],
-    c: &mut Pair,
+    c: &mut RayRows,
     t: &mut [[f64; N]; 3],
 ) -> [f64; 2] {
     let cross = &cross[..5 * STRIDE + N];
@@ -318,7 +318,7 @@ fn with_interior<const N: usize, const STRIDE: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::adjust::linear::tiles::Pattern;
+    use crate::adjust::linear::tiles::TilePattern;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -327,7 +327,7 @@ mod tests {
         // Three photos in two tiles.
         let places = [6, 30, TILE + 12];
         let number = |i: usize, j: usize| ((i.max(j) * 31 + i.min(j) * 7) as f64).sin();
-        let mut q = TileMatrix::new(Pattern::new(2, [(0, 0), (1, 0), (1, 1)].into_iter()));
+        let mut q = TileMatrix::new(TilePattern::new(2, [(0, 0), (1, 0), (1, 1)].into_iter()));
         for column in 0..2 * TILE {
             for row in (0..2 * TILE).filter(|row| row / TILE >= column / TILE) {
                 let at = q.place(row, column);
@@ -335,15 +335,18 @@ mod tests {
             }
         }
         let pose = |k: usize, s: usize, r: usize| (0.4 + k as f64 + 2.1 * s as f64 + 0.7 * r as f64).cos();
-        let row = |k: usize| Row::<0> { pose: [0, 1].map(|s| [0, 1, 2, 3, 4, 5].map(|r| pose(k, s, r))), ..Row::ZERO };
-        let rows: Vec<Row<0>> = (0..3).map(row).collect();
-        let b: Vec<Pair> = (0..3)
+        let row = |k: usize| CollinearityRows::<0> {
+            pose: [0, 1].map(|s| [0, 1, 2, 3, 4, 5].map(|r| pose(k, s, r))),
+            ..CollinearityRows::ZERO
+        };
+        let rows: Vec<CollinearityRows<0>> = (0..3).map(row).collect();
+        let b: Vec<RayRows> = (0..3)
             .map(|k| {
                 [0, 1].map(|s| [0, 1, 2, 3].map(|m| if m < 3 { (k * 5 + s * 3 + m) as f64 * 0.3 - 1.0 } else { 0.0 }))
             })
             .collect();
         let columns: Vec<(u32, u32)> = places.iter().map(|place| TileMatrix::column(*place)).collect();
-        let (mut c, mut p) = (vec![Pair::default(); 3], vec![[f64x2::ZERO; 2]; 3]);
+        let (mut c, mut p) = (vec![RayRows::default(); 3], vec![[f64x2::ZERO; 2]; 3]);
         for i in 0..3 {
             let sum = among_photos(&q, q.line(places[i]), &columns[..=i], &rows[..=i], &b, &mut p);
             let sum = sum.map(f64x2::to_array);

@@ -18,7 +18,7 @@ impl<'a> Bits<'a> {
         Self { bytes, at, window: 0, count: 0, invented: 0 }
     }
 
-    /// Sees to it that 32 bits can be looked at and taken.
+    /// Sees to it that 32 bits can be examined and taken.
     #[inline(always)]
     pub fn refill(&mut self) {
         if self.count >= 32 {

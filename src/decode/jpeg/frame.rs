@@ -23,7 +23,7 @@ pub enum Coding {
     Progressive,
 }
 
-/// What the components are.
+/// Meaning of the components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
     /// Grey alone.
@@ -46,13 +46,13 @@ pub struct Component {
 
 /// The frame header.
 #[derive(Clone, Debug)]
-pub struct Frame {
+pub struct FrameHeader {
     pub width: usize,
     pub height: usize,
     pub coding: Coding,
     pub colours: Colours,
     pub components: Vec<Component>,
-    /// Most blocks of a unit, across and down.
+    /// Maximum number of blocks of a unit, across and down.
     pub unit: [usize; 2],
 }
 
@@ -81,7 +81,7 @@ pub enum Segment<'a> {
     End,
 }
 
-/// The next segment; `at` is moved behind it. None where the file ends.
+/// The next segment; `at` is moved behind it. `None` if the file ends.
 pub fn next<'a>(bytes: &'a [u8], at: &mut usize) -> Option<Segment<'a>> {
     loop {
         // what does not belong there is passed, as by every decoder
@@ -106,7 +106,7 @@ pub fn next<'a>(bytes: &'a [u8], at: &mut usize) -> Option<Segment<'a>> {
 }
 
 impl Tables {
-    /// Takes over what a segment defines; none where it is damaged.
+    /// Takes over what a segment defines; `None` if it is damaged.
     pub fn read(&mut self, marker: u8, payload: &[u8]) -> Option<()> {
         match marker {
             0xc4 => self.read_codes(payload),
@@ -155,7 +155,7 @@ impl Tables {
     }
 }
 
-impl Frame {
+impl FrameHeader {
     /// Reads a frame header.
     pub fn read(marker: u8, payload: &[u8], tables: &Tables) -> Result<Self, Refusal> {
         let broken = || Refusal::Broken(Damage::Header);
@@ -189,7 +189,7 @@ impl Frame {
             components.push(Component { id: part[0], blocks, steps: usize::from(part[2]) });
         }
         if let [grey] = &mut components[..] {
-            // a single component is not interleaved, whatever it says
+            // a single component is not interleaved, whatever its header states
             grey.blocks = [1, 1];
         }
         let most = |axis: usize| components.iter().map(|c| c.blocks[axis]).max().unwrap_or(1);
@@ -224,7 +224,7 @@ impl Frame {
         self.components[0].blocks == self.unit
     }
 
-    /// What the picture's bytes hold at least, by the shortest codes there are, of one bit.
+    /// Maximum number of pixels that the bytes can hold, with codes of at least one bit.
     ///
     /// A sequential block is a direct coefficient and an end: two bits. Of a progressive one every row of blocks takes part in all
     /// scans, and the first one of luma has a bit of each block: with fewer bytes no row can be whole.
@@ -239,9 +239,9 @@ impl Frame {
     }
 }
 
-/// One component's part in a scan.
+/// A component in a scan.
 #[derive(Clone, Copy)]
-pub struct Part {
+pub struct ScanComponent {
     /// Which component of the frame.
     pub component: usize,
     /// Which tables.
@@ -251,22 +251,22 @@ pub struct Part {
 
 /// A scan header.
 pub struct Scan {
-    pub parts: Vec<Part>,
+    pub parts: Vec<ScanComponent>,
     /// First and last coefficient.
     pub band: [usize; 2],
-    /// Bits left out before this scan, 0 where it is the first, and after it.
+    /// Bits left out before this scan, 0 if it is the first, and after it.
     pub bits: [u32; 2],
 }
 
 impl Scan {
-    /// Reads a scan header; none where it is damaged.
-    pub fn read(payload: &[u8], frame: &Frame) -> Option<Self> {
+    /// Reads a scan header; `None` if it is damaged.
+    pub fn read(payload: &[u8], frame: &FrameHeader) -> Option<Self> {
         let (count, rest) = payload.split_first()?;
         let (parts, rest) = rest.split_at_checked(2 * usize::from(*count))?;
         let part = |part: &[u8]| {
             let component = frame.components.iter().position(|c| c.id == part[0])?;
             let (direct, alternating) = (usize::from(part[1] >> 4), usize::from(part[1] & 15));
-            (direct < 4 && alternating < 4).then_some(Part { component, direct, alternating })
+            (direct < 4 && alternating < 4).then_some(ScanComponent { component, direct, alternating })
         };
         let parts = parts.chunks_exact(2).map(part).collect::<Option<Vec<_>>>()?;
         let [first, last, bits, ..] = rest else { return None };

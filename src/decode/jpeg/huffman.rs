@@ -25,7 +25,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table from its numbers of codes of each length 1..=16 and its symbols; none where these are no code.
+    /// A table from its numbers of codes of each length 1..=16 and its symbols; `None` if these are no code.
     pub fn new(counts: &[u8; 16], symbols: &[u8]) -> Option<Self> {
         let mut table = Self {
             steps: Box::new([0; SIZE]),

@@ -4,15 +4,15 @@ use super::bits::Bits;
 use super::frame::{Scan, Tables};
 use super::huffman::{BadCode, Table};
 use super::scan::{Content, LARGEST_DIRECT, Planes, walk};
-use super::transform::{self, Block, PLACES};
+use super::transform::{self, CoefficientBlock, PLACES};
 
-/// What the scan of direct coefficients needs of a component.
+/// Data of a component for the scan of DC coefficients.
 struct Direct<'a> {
     component: usize,
     /// Its blocks in a row of a unit of all components; those of a unit of the scan.
     stride: usize,
     blocks: [usize; 2],
-    /// None where the scan refines: its bits are not coded.
+    /// `None` if the scan refines: its bits are not coded.
     table: Option<&'a Table>,
     step: u16,
     previous: i32,
@@ -63,7 +63,7 @@ impl Planes {
         whole: &mut [bool],
     ) -> Option<usize> {
         let alone = scan.parts.len() == 1;
-        let read = |part: &super::frame::Part| {
+        let read = |part: &super::frame::ScanComponent| {
             let component = &self.frame.components[part.component];
             let table = if scan.bits[0] == 0 { Some(tables.direct[part.direct].as_ref()?) } else { None };
             let blocks = if alone { [1, 1] } else { component.blocks };
@@ -155,7 +155,7 @@ impl Planes {
                     self.put([x, y], &[transform::mean(coefficients[0].into(), steps[0]); 64]);
                     continue;
                 }
-                let mut block: Block = [0.0; 80];
+                let mut block: CoefficientBlock = [0.0; 80];
                 for (coefficient, place) in coefficients.iter().zip(PLACES) {
                     let place = usize::from(place);
                     block[place] = f32::from(*coefficient) * weights[place];

@@ -4,9 +4,9 @@
 //! Damage that still reads as codes is found by what it does to the end of a run of units: data that are left over, or missing.
 
 use super::bits::Bits;
-use super::frame::{Coding, Colours, Component, Frame, Refusal, Scan, Tables};
+use super::frame::{Coding, Colours, Component, FrameHeader, Refusal, Scan, Tables};
 use super::huffman::{BadCode, Table};
-use super::transform::{self, Block, PLACES};
+use super::transform::{self, CoefficientBlock, PLACES};
 use super::{Luma, Plane8};
 use crate::error::Damage;
 
@@ -21,7 +21,7 @@ pub const LARGEST_DIRECT: i32 = 2 * 1024;
 
 /// The planes of a file while they are read.
 pub struct Planes {
-    pub frame: Frame,
+    pub frame: FrameHeader,
     /// Whether damage is looked for in all components, and no samples are wanted; else the first is read.
     all: bool,
     plane: Plane8,
@@ -36,20 +36,20 @@ pub struct Planes {
     pub(super) steps: Option<[u16; 64]>,
 }
 
-/// What decodes one component's blocks in a sequential scan.
-struct Reader<'a> {
+/// Decodes the blocks of one component in a sequential scan.
+struct ComponentDecoder<'a> {
     component: usize,
     blocks: [usize; 2],
     direct: &'a Table,
     alternating: &'a Table,
     steps: [u16; 64],
-    weights: Block,
+    weights: CoefficientBlock,
     previous: i32,
 }
 
 impl Planes {
     /// Room for what is wanted of a frame's planes.
-    pub fn new(frame: Frame, all: bool) -> Self {
+    pub fn new(frame: FrameHeader, all: bool) -> Self {
         let [across, down] = frame.units();
         let [width, height] = if all { [0, 0] } else { [frame.width, frame.height] };
         let plane = Plane8 { width, height, samples: vec![128; width * height] };
@@ -86,10 +86,10 @@ impl Planes {
     }
 
     fn sequential(&mut self, bytes: &[u8], at: usize, scan: &Scan, tables: &Tables) -> usize {
-        let read = |part: &super::frame::Part| {
+        let read = |part: &super::frame::ScanComponent| {
             let component = &self.frame.components[part.component];
             let steps = tables.steps[component.steps]?;
-            Some(Reader {
+            Some(ComponentDecoder {
                 component: part.component,
                 blocks: component.blocks,
                 direct: tables.direct[part.direct].as_ref()?,
@@ -142,7 +142,7 @@ impl Planes {
     fn unit(
         &mut self,
         bits: &mut Bits,
-        readers: &mut [Reader],
+        readers: &mut [ComponentDecoder],
         [across, down]: [usize; 2],
     ) -> Result<Content, BadCode> {
         let mut content = Content::Flat;
@@ -169,7 +169,7 @@ impl Planes {
     /// What was read, with the rows that were not; `ended` is whether the file does, `data` are its scans.
     ///
     /// # Errors
-    /// [`Refusal::Broken`] where no row is whole.
+    /// [`Refusal::Broken`] if no row is whole.
     pub fn finish(mut self, ended: bool, data: &[u8]) -> Result<Luma, Refusal> {
         let none = || Refusal::Broken(Damage::NoWholeRow);
         let mut wanted = (0..self.seen.len()).filter(|component| self.wants(*component));
@@ -224,9 +224,14 @@ impl Planes {
 
 /// One block of luma, from codes to samples.
 #[inline(never)]
-fn luma_block(bits: &mut Bits, reader: &mut Reader, plane: &mut Plane8, at: [usize; 2]) -> Result<Content, BadCode> {
+fn luma_block(
+    bits: &mut Bits,
+    reader: &mut ComponentDecoder,
+    plane: &mut Plane8,
+    at: [usize; 2],
+) -> Result<Content, BadCode> {
     let direct = next_direct(bits, reader)?;
-    let mut block: Block = [0.0; 80];
+    let mut block: CoefficientBlock = [0.0; 80];
     let weights = &reader.weights;
     let last = reader.alternating.alternating(bits, |k, value| {
         let place = usize::from(PLACES[k.min(79)]);
@@ -243,14 +248,14 @@ fn luma_block(bits: &mut Bits, reader: &mut Reader, plane: &mut Plane8, at: [usi
 
 /// The mean of one block, and what else there is of it.
 #[inline(never)]
-fn mean_block(bits: &mut Bits, reader: &mut Reader) -> Result<(u8, Content), BadCode> {
+fn mean_block(bits: &mut Bits, reader: &mut ComponentDecoder) -> Result<(u8, Content), BadCode> {
     let direct = next_direct(bits, reader)?;
     let content = if reader.alternating.pass(bits)? { Content::Structure } else { Content::Flat };
     Ok((transform::mean(direct, reader.steps[0]), content))
 }
 
 #[inline(always)]
-fn next_direct(bits: &mut Bits, reader: &mut Reader) -> Result<i32, BadCode> {
+fn next_direct(bits: &mut Bits, reader: &mut ComponentDecoder) -> Result<i32, BadCode> {
     // steps of 0 hold nothing back
     reader.previous = reader.previous.wrapping_add(reader.direct.direct(bits)?);
     let level = reader.previous.saturating_mul(i32::from(reader.steps[0]));
@@ -284,7 +289,7 @@ fn put(plane: &mut Plane8, at: [usize; 2], samples: &[u8; 64]) {
     }
 }
 
-/// What a unit's data were like.
+/// Layout of the data of a unit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Content {
     /// Nothing but means: equal bytes may be such units.
@@ -338,7 +343,7 @@ pub fn walk(
         if run == runs {
             return end;
         }
-        // to the restart marker; what stands there instead of one is damage
+        // to the restart marker; anything else there is damage
         loop {
             match bytes.get(end + 1) {
                 Some(number @ 0xd0..=0xd7) => {

@@ -8,9 +8,9 @@ const LEVEL: f32 = 128.0 + 1.0 / 1024.0;
 const ROUND: f32 = 12_582_912.0;
 
 /// Coefficients of a block, weighted; columns one after the other. What a damaged run passes lands behind them.
-pub type Block = [f32; 80];
+pub type CoefficientBlock = [f32; 80];
 
-/// Place of a coefficient in a [`Block`], by its place in the file.
+/// Place of a coefficient in a [`CoefficientBlock`], by its place in the file.
 pub const PLACES: [u8; 80] = {
     let mut places = [64; 80];
     let (mut x, mut y, mut k) = (0usize, 0usize, 0);
@@ -37,10 +37,10 @@ pub const PLACES: [u8; 80] = {
     places
 };
 
-/// Weights of the coefficients in the places of a [`Block`], from the file's steps in its own order.
+/// Weights of the coefficients in the places of a [`CoefficientBlock`], from the file's steps in its own order.
 ///
 /// The factors of Arai, Agui and Nakajima's transform, cos(kπ/16) √2 of rows and columns, are taken into the steps.
-pub fn weights(steps: &[u16; 64]) -> Block {
+pub fn weights(steps: &[u16; 64]) -> CoefficientBlock {
     let factor = |k: usize| if k == 0 { 1.0 } else { (k as f64 * std::f64::consts::PI / 16.0).cos() * 2f64.sqrt() };
     let mut weights = [0.0; 80];
     for (step, place) in steps.iter().zip(PLACES) {
@@ -78,7 +78,7 @@ fn eight(c: [f32x4; 8]) -> [f32x4; 8] {
 
 /// Samples of a block, row by row.
 #[inline(always)]
-pub fn samples(block: &Block) -> [u8; 64] {
+pub fn samples(block: &CoefficientBlock) -> [u8; 64] {
     let load = |at: usize| f32x4::new([block[at], block[at + 1], block[at + 2], block[at + 3]]);
     // columns stand one after the other: the first transform runs along the rows
     let mut upper: [f32x4; 8] = std::array::from_fn(|x| load(8 * x));

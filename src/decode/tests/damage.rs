@@ -45,17 +45,17 @@ fn first_scan(file: &[u8]) -> usize {
     file.windows(2).position(|w| w == b"\xff\xda").expect("a scan")
 }
 
-fn rows(photo: &Photo) -> Vec<&[u8]> {
+fn rows(photo: &DecodedPhoto) -> Vec<&[u8]> {
     let Samples::U8(samples) = &photo.grey.samples else { panic!("8 bits expected") };
     samples.chunks(photo.grey.width).collect()
 }
 
-fn is_damaged(photo: &Photo, row: usize) -> bool {
+fn is_damaged(photo: &DecodedPhoto, row: usize) -> bool {
     photo.damaged_rows.iter().any(|[first, last]| (*first as usize..*last as usize).contains(&row))
 }
 
-/// Rows that are said to be whole and are not, and rows that are whole.
-fn wrong_and_whole(photo: &Photo, truth: &Photo) -> (usize, usize) {
+/// Rows reported as intact that are not, and intact rows.
+fn wrong_and_whole(photo: &DecodedPhoto, truth: &DecodedPhoto) -> (usize, usize) {
     let (got, expected) = (rows(photo), rows(truth));
     let whole = (0..got.len()).filter(|row| !is_damaged(photo, *row)).collect::<Vec<_>>();
     (whole.iter().filter(|row| got[**row] != expected[**row]).count(), whole.len())
@@ -203,7 +203,7 @@ fn a_header_is_held_against_the_bytes() {
     let error = grey(&png, Channel::Grey).expect_err("15000 x 15000");
     assert!(error.code() == "broken_image" && error.to_string().contains("15000 x 15000"), "{error}");
     let tiff = encoded(&coloured(), ImageFormat::Tiff);
-    let reader = bytes::Reader::tiff(&tiff).expect("a TIFF");
+    let reader = bytes::TiffReader::tiff(&tiff).expect("a TIFF");
     let mut large = tiff.clone();
     for entry in reader.entries().iter().filter(|entry| entry.tag == 256 || entry.tag == 257) {
         reader.overwrite(&mut large, entry, 15_000);
@@ -211,7 +211,7 @@ fn a_header_is_held_against_the_bytes() {
     assert_eq!(grey(&large, Channel::Grey).expect_err("15000 x 15000").code(), "broken_image");
 }
 
-/// Of a BMP without compression every byte is told by its header; runs stand for more.
+/// Of a BMP without compression every byte is told by its header; runs represent more.
 #[test]
 fn a_bmp_s_header_is_held_against_the_bytes() {
     let mut bmp = encoded(&RgbImage::new(900, 700).into(), ImageFormat::Bmp);
@@ -249,7 +249,7 @@ fn a_bmp_s_header_is_held_against_the_bytes() {
 fn profiles_of_png_are_not_unpacked() {
     let png = encoded(&coloured(), ImageFormat::Png);
     let mut with_profile = png[..33].to_vec();
-    // a profile that is none: only who unpacks it can know
+    // an invalid profile, which only unpacking reveals
     let chunk = b"iCCPname\0\0not deflated at all";
     with_profile.extend((chunk.len() as u32 - 4).to_be_bytes());
     with_profile.extend(chunk);

@@ -1,4 +1,4 @@
-//! What a file carries of itself is found in both byte orders, at every place where cameras put it, and little else is read.
+//! The embedded preview is found in both byte orders, at every place where cameras put it, and little else is read.
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 

@@ -13,9 +13,9 @@ table! {
     LOW: f64 = 0.25, Judged "as above";
     /// Share of the least level of set sectors that some direction of a ring shows, whatever blur leaves.
     FAINT: f64 = 0.4, Derived "a lone sector shows as much of its level where it is 1.05 blurs wide";
-    /// Most by which light changes the level of set sectors, as a share of the step between the levels.
+    /// Maximum change of the level of set sectors by the light, as a share of the step between the levels.
     UNEVEN: f64 = 0.35, Judged "light that changes by a ninth from one radius to the next, at the ring's three";
-    /// Most that may stand in the gap and outside of a set sector, and by which the halves of a sector may differ.
+    /// Maximum deviation from the background in the gap and outside of a set sector, and maximum difference of the halves of a sector.
     CLEAR: f64 = 0.38, Judged "as a sector's margin";
     HALVES: f64 = 0.45, Judged "covers and neighbours of `codes`";
     /// The same on the mean over the set sectors: what a ring of another size leaves there.
@@ -23,7 +23,7 @@ table! {
     MEAN_HALVES: f64 = 0.3, Judged "as above";
     /// The same before the ring is divided into sectors, in the directions where it is set.
     BESIDE: f64 = 0.54, Measured "of 3000 rings that `codes` reads or leaves in doubt at most 0.31; 98 in 100 of the targets of det1.png beside something have more";
-    /// Most that an unset sector may stand out together with its gap or its ground, as a share of the step: sharp, and times the
+    /// Maximum deviation of an unset sector that has the same sign as that of its gap or its background, as a share of the step: sharp, and times the
     /// blur over a sector's width more.
     VEIL: [f64; 2] = [0.1, 0.4], Measured "of 1300 codes as in `codes` q99 is 0.04 of sharp ones and 0.14 where blur is 0.3 sectors; a grey cover that changed a number had 0.17";
     /// How far a sector may be from the level it has; further only by chance.
@@ -38,7 +38,7 @@ table! {
     /// The ratio where sectors are narrower than so many pixels, and show little of their shape.
     DISCS_SMALL: f64 = 1.0, Derived "discs have to leave less than sectors";
     SHAPED: f64 = 4.5, Measured "of 600 readings of photographed prints the largest ratios are 0.94 at sectors of 3.4 px and 0.97 at 4.2 px; all others are below 0.65";
-    /// Most sectors that may be in doubt, fewest set ones beyond doubt.
+    /// Maximum number of doubtful sectors, and minimum number of certain set sectors.
     DOUBTFUL: usize = 3, Judged "up to eight candidates are a question, more are none";
     SURE: usize = 2, Judged "a ring shows in sectors that are beyond doubt";
     /// Distance of an arc's end from the grid, one end's and the rms of all: sectors, and pixels besides.
@@ -69,10 +69,10 @@ table! {
     /// Level of something of the dot's colour in a first look, and how many in twenty directions.
     SET: f64 = 0.35, Judged "set sectors of thin rings under blur";
     LOOKED: usize = 20, Judged "half of two sectors of twenty: what blur leaves";
-    /// Least difference of the two levels, and least contrast in grey levels.
+    /// Minimum difference of the two levels, and minimum contrast in grey levels.
     STANDS_OUT: f64 = 0.1, Judged "below nothing is a ring";
     CONTRAST: f64 = 1.0, Derived "one grey level";
-    /// Distance of a direction's ground from the plane through all, as a share of the contrast, round by round.
+    /// Distance of a direction's background from the plane through all, as a share of the contrast, round by round.
     GROUND: [f64; 4] = [0.5, 0.3, 0.2, 0.2], Judged "grounds of `codes`";
     /// How far beyond the ring a part of it may reach, in radii.
     BEYOND: f64 = 0.25, Judged "half a ring of the narrower design";

@@ -6,18 +6,18 @@ use std::rc::Rc;
 
 use nalgebra::{Cholesky, Const, Matrix4, Vector4};
 
-use super::polar::{Rays, between, radius};
+use super::polar::{RingRays, between, radius};
 use super::radial::{GROUND, START};
 use crate::ring_code::Design;
 
-/// Holds bands that blur has hidden, against the weight of one that is seen.
+/// Weight of the condition on bands hidden by blur, relative to that of a visible one.
 const RIDGE: f64 = 0.02;
 
-pub(super) type Factor = Cholesky<f64, Const<4>>;
+pub(super) type RayFactor = Cholesky<f64, Const<4>>;
 
-/// What a sample sees of the dot, and of gap, ring, difference of the ring's halves, and outside.
+/// Contributions to a sample: the dot, gap, ring, difference of the ring's halves, and outside.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Band {
+pub(super) struct BandSample {
     pub dot: f64,
     pub basis: Vector4<f64>,
 }
@@ -25,25 +25,25 @@ pub(super) struct Band {
 /// The bands of every ray and sample.
 #[derive(Debug)]
 pub(super) struct Bands {
-    pub rays: Rc<Rays>,
+    pub rays: Rc<RingRays>,
     /// Inner and outer radius of the ring.
     pub design: [f64; 2],
     /// Samples of a ray that are explained.
     pub samples: Range<usize>,
     /// Of the first half of the rays.
-    bands: Vec<Band>,
-    factors: Vec<Option<Factor>>,
+    bands: Vec<BandSample>,
+    factors: Vec<Option<RayFactor>>,
 }
 
 impl Bands {
     /// Of a design around a dot.
-    pub fn of(rays: Rc<Rays>, design: Design) -> Self {
+    pub fn of(rays: Rc<RingRays>, design: Design) -> Self {
         let [inner, outer] = design.ring();
         let rims = [1.0, inner, (inner + outer) / 2.0, outer, outer + GROUND];
         let samples = between([START, outer + GROUND]);
         let band = |j: usize, k: usize| {
             let [dot, gap, first, second, outside] = rays.bands(radius(k), rims, j);
-            Band { dot, basis: Vector4::new(gap, first + second, (first - second) / 2.0, outside) }
+            BandSample { dot, basis: Vector4::new(gap, first + second, (first - second) / 2.0, outside) }
         };
         let half = rays.directions.len() / 2;
         let bands = (0..half).flat_map(|j| samples.clone().map(move |k| (j, k))).map(|(j, k)| band(j, k)).collect();
@@ -53,20 +53,20 @@ impl Bands {
     }
 
     /// The bands of a ray's samples.
-    pub fn row(&self, direction: usize) -> &[Band] {
+    pub fn row(&self, direction: usize) -> &[BandSample] {
         let direction = direction % (self.rays.directions.len() / 2);
         &self.bands[direction * self.samples.len()..][..self.samples.len()]
     }
 
     /// Factor of the normal matrix of a ray.
-    pub fn factor(&self, direction: usize) -> Option<Factor> {
+    pub fn factor(&self, direction: usize) -> Option<RayFactor> {
         self.factors[direction % self.factors.len()]
     }
 
     /// The same of some of a ray's samples.
-    pub fn factor_of<'a>(&self, bands: impl Iterator<Item = &'a Band>) -> Option<Factor> {
+    pub fn factor_of<'a>(&self, bands: impl Iterator<Item = &'a BandSample>) -> Option<RayFactor> {
         let mut normal = Matrix4::<f64>::zeros();
-        bands.for_each(|Band { basis, .. }| normal += basis * basis.transpose());
+        bands.for_each(|BandSample { basis, .. }| normal += basis * basis.transpose());
         let ridge = RIDGE * self.samples.len() as f64;
         for k in 0..4 {
             normal[(k, k)] += ridge * if k == 2 { 0.5 } else { 0.1 };
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn opposite_rays_have_the_same_bands() {
-        let rays = Rc::new(Rays::of(Outline::from_axes(50.0, 40.0, 9.0, 5.0, 0.7), 0.9));
+        let rays = Rc::new(RingRays::of(Outline::from_axes(50.0, 40.0, 9.0, 5.0, 0.7), 0.9));
         let bands = Bands::of(rays.clone(), Design::Metashape);
         let [inner, outer] = Design::Metashape.ring();
         let rims = [1.0, inner, (inner + outer) / 2.0, outer, outer + GROUND];

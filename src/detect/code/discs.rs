@@ -1,6 +1,6 @@
 //! Hypothesis of discs in place of the set sectors of a ring.
 //!
-//! Dots around a dot can lie on the grid of a family, in the ring's middle, and be as bright as sectors. What tells them from sectors is
+//! Dots around a dot can lie on the grid of a family, in the ring's middle, and be as bright as sectors. They differ from sectors by
 //! their shape: the ends of sectors are straight rays and their rims arcs of the ring's circles, a disc leaves the corners free. Both are
 //! drawn as levels of the ring's plane,
 //!
@@ -11,7 +11,7 @@
 //! with the shares B and S of ring and sector, the levels x of set sectors and the discs' centres p_k in their middles, m pixels a
 //! radius across the disc's rim and the blur s; each is scaled to the picture by least squares.
 
-use super::polar::{Rays, radius, step};
+use super::polar::{RingRays, radius, step};
 use super::radial::Radial;
 use super::sectors::Division;
 
@@ -62,7 +62,7 @@ impl Discs {
         Self { discs, size }
     }
 
-    fn level(&self, rays: &Rays, direction: usize, radius: f64) -> f64 {
+    fn level(&self, rays: &RingRays, direction: usize, radius: f64) -> f64 {
         let [c, s] = rays.directions[direction];
         let nearest = |(centre, level): &([f64; 2], f64)| {
             let [x, y] = [radius * c - centre[0], radius * s - centre[1]];
@@ -87,7 +87,7 @@ mod tests {
     use crate::detect::detect;
     use crate::detect::outline::Outline;
     use crate::detection::{Codes, DetectOptions};
-    use crate::image::{GreyView, Plane, SamplesView};
+    use crate::image::{GreyView, SampleView, SamplesView};
     use crate::ring_code::Design;
 
     const SIZE: usize = 140;
@@ -111,7 +111,7 @@ mod tests {
         let is_dot = |target: &&crate::detection::Target| (target.u - outline.u).hypot(target.v - outline.v) < 0.5;
         let target = found.targets.iter().find(is_dot).expect("the dot");
         assert!((outline_of(target).semi_axes().0 - 15.0).abs() < 0.3);
-        let plane = Plane::new(SIZE, SIZE, &samples);
+        let plane = SampleView::new(SIZE, SIZE, &samples);
         let around = Around::of(&plane, target, target.quality.edge_width, 6000);
         let radial = around.straightest(design).expect("a ring");
         rivalry(&radial, &radial.divide(SECTORS).expect("sectors"))

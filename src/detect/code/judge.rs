@@ -1,14 +1,14 @@
 //! Decides whether a ring is a code of a family, by a sequence of tests.
 //!
 //! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
-//! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors explain
+//! gap is clear, and the background outside beside each set sector, when its rims are where the design has them, when sectors explain
 //! it better than discs in their places, when they end on the grid of n and not better on that of another family, and when the
 //! family has the code. Where a few sectors only leave a doubt, the codes that remain are its candidates. A margin is a level's
 //! distance from half-way, 1 when it is as clear as dot and background; the code's margin is that of its worst sector.
 
 use std::cell::OnceCell;
 
-use super::Reading;
+use super::CodeReading;
 use super::discs;
 use super::radial::Radial;
 use super::sectors::Division;
@@ -53,7 +53,7 @@ struct Ring<'a> {
     gap: Vec<f64>,
     halves: Vec<f64>,
     outside: Vec<f64>,
-    /// Most that an unset sector may stand out together with its gap or ground.
+    /// Maximum deviation of an unset sector that has the same sign as that of its gap or background.
     veil: f64,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Ring<'a> {
         (self.above(k).abs() / ((self.lit[k] - self.division.low) / 2.0)).min(1.0)
     }
 
-    /// Whether something stands in the gap, across the ring or on the ground of a sector. What is grey and reaches beyond the ring hides
+    /// Whether something stands in the gap, across the ring or on the background of a sector. What is grey and reaches beyond the ring hides
     /// whether a sector is set.
     fn is_disturbed(&self, k: usize) -> bool {
         let on_ground = if self.division.is_set(k) {
@@ -113,7 +113,7 @@ impl<'a> Ring<'a> {
         gap.abs() <= limits::MEAN_CLEAR && outside.abs() <= limits::MEAN_CLEAR && halves.abs() <= limits::MEAN_HALVES
     }
 
-    /// Gate: the ground beside set sectors is that beside the others, or a ring of another width stands there.
+    /// Gate: the background beside set sectors is that beside the others, or a ring of another width stands there.
     fn has_one_ground(&self) -> bool {
         let grounds = self.division.sectors(&self.radial.rays, &self.radial.ground);
         let beside = |is_set: bool| {
@@ -146,13 +146,13 @@ fn rivalry(family: Family, division: &Division, tones: &[Tone]) -> f64 {
 }
 
 /// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
-pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
+pub(super) fn judge(family: Family, tones: &[Tone]) -> CodeReading {
     if tones.iter().all(|(radial, _)| radial.is_faint() || radial.is_clutter()) {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
-    let Some((radial, division)) = best(tones, family.bits()) else { return Reading::Plain };
+    let Some((radial, division)) = best(tones, family.bits()) else { return CodeReading::Plain };
     if !limits::HIGH.contains(&division.high) || division.low.abs() > limits::LOW {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
     let ring = Ring::new(radial, division);
     let margin = (0..ring.n).map(|k| ring.margin(k)).fold(1.0, f64::min);
@@ -166,33 +166,33 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         || !ring.has_one_ground()
         || sure.len() < limits::SURE
     {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
     // and its rims are where the design has them
     let off_rims = radial.off_rims(ring.means(&sure));
     if off_rims > 1.0 {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
     // dots around a dot are no ring
     let of_discs = discs::rivalry(radial, division);
     let is_shaped = radial.sector(family.bits() as usize) >= limits::SHAPED;
     let [most, doubtful] = if is_shaped { limits::DISCS } else { [limits::DISCS_SMALL; 2] };
     if of_discs > most {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
     let ratio = rivalry(family, division, tones);
     if ratio > limits::BETTER {
-        return Reading::Plain;
+        return CodeReading::Plain;
     }
     let numbers = ring.numbers(family, &in_doubt);
     // a ring of 8 sectors is one of 16 that come in pairs
     let is_coarse = in_doubt.is_empty() && set.len() < ring.n && coarser_grid(division.bits, family.bits()).is_some();
     if numbers.is_empty() {
         if is_coarse {
-            return Reading::Coarse { number: None, margin };
+            return CodeReading::Coarse { number: None, margin };
         }
         let note = if set.len() == ring.n { CodeNote::AllSet } else { CodeNote::NoCode };
-        return Reading::NoCode { margin, note };
+        return CodeReading::NoCode { margin, note };
     }
     let (off_grid, left) = (radial.off_grid(division), radial.left(division));
     let shares = [ratio / limits::AS_GOOD, off_grid, left, off_rims, radial.whole_misfit(division) / limits::WHOLE];
@@ -206,13 +206,13 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         // two doubts are more than the company of other codes settles
         CodeNote::OtherFamily
     } else if is_coarse {
-        return Reading::Coarse { number: Some(numbers[0]), margin };
+        return CodeReading::Coarse { number: Some(numbers[0]), margin };
     } else if is_by_chance(shares, division.arcs(), radial) {
         CodeNote::Uncertain
     } else {
-        return Reading::Code { number: numbers[0], margin };
+        return CodeReading::Code { number: numbers[0], margin };
     };
-    Reading::Doubtful { numbers, margin, note }
+    CodeReading::Doubtful { numbers, margin, note }
 }
 
 /// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its

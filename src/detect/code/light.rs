@@ -9,25 +9,25 @@ use super::radial::{contrast, levels};
 use crate::detect::acceptance::code::{TONE, TONE_SMALL};
 use crate::detect::measure::Measure;
 use crate::detect::outline::Outline;
-use crate::detect::part::Part;
 use crate::detect::picture::noise;
+use crate::detect::window::Window;
 use crate::detection::{DetectOptions, Polarity, Target};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 use crate::statistics::distribution::normal_quantile;
 
 /// Level of the most light.
 const WHITE: f64 = 60_000.0;
-/// Side of the part that a target is read in, over its diameter, and pixels beside: all of the widest ring and its ground.
+/// Side of the part that a target is read in, over its diameter, and pixels beside: all of the widest ring and its background.
 const WINDOW: (f64, usize) = (5.0, 16);
 
 /// The part of a picture that holds a target and its ring, in light, and the target as it is there; `light` is that of a level, of 1.
-/// None where the target has no contrast.
+/// `None` if the target has no contrast.
 pub(in crate::detect) fn of<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     target: &Target,
     blur: f64,
     light: impl Fn(f64) -> f64,
-) -> Option<(Part<u16>, Target)> {
+) -> Option<(Window<u16>, Target)> {
     let [dot, ground] = levels(plane, target);
     let [dark, bright] = [dot.min(ground), dot.max(ground)].map(&light);
     let share = (light((dot + ground) / 2.0) - dark) / (bright - dark);
@@ -43,15 +43,15 @@ pub(in crate::detect) fn of<T: Sample>(
 }
 
 /// The part of a picture that holds a target and its ring, in light.
-fn part_of<T: Sample>(plane: &Plane<T>, target: &Target, light: impl Fn(f64) -> f64) -> Part<u16> {
-    let Part { left, top, width, height, samples } =
-        Part::of(plane, target.u, target.v, (WINDOW.0 * target.major) as usize + WINDOW.1);
+fn part_of<T: Sample>(plane: &SampleView<T>, target: &Target, light: impl Fn(f64) -> f64) -> Window<u16> {
+    let Window { left, top, width, height, samples } =
+        Window::of(plane, target.u, target.v, (WINDOW.0 * target.major) as usize + WINDOW.1);
     let samples = in_light(&samples, |level| (WHITE * light(f64::from(level))).round() as u16);
-    Part { left, top, width, height, samples }
+    Window { left, top, width, height, samples }
 }
 
 /// The target with an outline of that part.
-fn in_part(part: &Part<u16>, target: &Target, outline: Outline) -> Target {
+fn in_part(part: &Window<u16>, target: &Target, outline: Outline) -> Target {
     let (a, b, angle) = outline.axes();
     let mut target = Target { u: outline.u, v: outline.v, major: 2.0 * a, minor: 2.0 * b, angle, ..target.clone() };
     target.contrast = contrast(&part.plane(), &target);
@@ -74,14 +74,14 @@ fn screen<T: Sample>(level: f64) -> f64 {
     (level / f64::from(T::MAX)).max(0.0).powf(TONE)
 }
 
-/// The same where a camera's curve may have bent the levels; none where the target is too large for a difference.
-pub(super) fn of_screen<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64) -> Option<(Part<u16>, Target)> {
+/// The same where a camera's curve may have bent the levels; `None` if the target is too large for a difference.
+pub(super) fn of_screen<T: Sample>(plane: &SampleView<T>, target: &Target, blur: f64) -> Option<(Window<u16>, Target)> {
     (target.minor <= TONE_SMALL).then(|| of(plane, target, blur, screen::<T>)).flatten()
 }
 
 /// The same with outline and blur from the edges that the dot has in light: what a sharpening after the curve does to them no curve tells.
-/// None where there are none.
-pub(super) fn measured<T: Sample>(plane: &Plane<T>, target: &Target) -> Option<(Part<u16>, Target)> {
+/// `None` if there are none.
+pub(super) fn measured<T: Sample>(plane: &SampleView<T>, target: &Target) -> Option<(Window<u16>, Target)> {
     let part = part_of(plane, target, screen::<T>);
     let outline = outline_of(target);
     let start = Outline { u: outline.u - part.left as f64, v: outline.v - part.top as f64, ..outline };

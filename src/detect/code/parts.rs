@@ -7,7 +7,7 @@ use crate::detect::acceptance::code::{
     BEYOND, SECTOR_AREA, SECTOR_CONTRAST, SECTOR_MIDDLE, SECTOR_WIDTH, SECTORS, SPOT, TONE_SMALL,
 };
 use crate::detect::outline::Outline;
-use crate::detect::search::census::forget_rejected;
+use crate::detect::search::tested_outlines::forget_rejected;
 use crate::detection::{CodeCandidate, CodeNote, Detection, Reason, Rejected, Target};
 use crate::ring_code::{Design, Family};
 
@@ -43,18 +43,18 @@ pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
     take_out(detection, is_part);
 }
 
-/// Takes out what stands where a ring that was not read has its sectors, and says so of the dot: two or more ellipses in the
+/// Removes targets at the sectors of a ring that was not read, and records that for the dot: two or more ellipses in the
 /// middle of a ring of some design and about as wide as that. One alone may be any neighbour, unless the ring itself was seen.
 pub(crate) fn drop_sectors(detection: &mut Detection) {
     let all = &detection.targets;
     let mut sectors = vec![false; all.len()];
     let mut dots = Vec::new();
-    // the rings of large dots are read, and what stands around them is as far apart
+    // the rings of large dots are read, and objects around them are as far apart
     for (k, dot) in all.iter().enumerate().filter(|(_, dot)| dot.minor <= TONE_SMALL) {
         let own = outline_of(dot);
         let is_sector = |other: &usize, design: Design| {
             let target = &all[*other];
-            // between two sectors the ground is an ellipse too
+            // between two sectors the background is an ellipse too
             let alike =
                 target.contrast > SECTOR_CONTRAST * dot.contrast && dot.contrast > SECTOR_CONTRAST * target.contrast;
             *other != k && target.code.is_none() && alike && is_in_ring(&own, &outline_of(target), design)

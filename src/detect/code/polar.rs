@@ -15,7 +15,7 @@
 //! edge at a distance t a level is the share Φ(t / s) of the step.
 
 use super::super::outline::Outline;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Radii that are sampled: the first, their distance, their number.
 const FIRST: f64 = 1.2;
@@ -28,16 +28,16 @@ const DIRECTIONS: (usize, usize) = (96, 240);
 /// Variance that square pixels and bilinear sampling add to a blur, in square pixels.
 const SAMPLING: f64 = 1.0 / 12.0 + 1.0 / 6.0;
 
-/// Where a target's plane lies in the photo.
+/// Polar frame of a target's plane in the photo.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct RingFrame {
     pub outline: Outline,
     /// Direction of the boost, and cosh and sinh of its size.
     direction: [f64; 2],
     boost: [f64; 2],
 }
 
-impl Frame {
+impl RingFrame {
     /// Of a dot, seen with a boost of `size` along its minor axis.
     pub fn new(outline: Outline, size: f64) -> Self {
         let (sine, cosine) = outline.axes().2.sin_cos();
@@ -59,7 +59,7 @@ impl Frame {
 
 /// The rays from a dot's centre on which the surroundings are read.
 #[derive(Clone, Debug)]
-pub(super) struct Rays {
+pub(super) struct RingRays {
     /// Cosine and sine of each direction; those of the second half are opposite to those of the first.
     pub directions: Vec<[f64; 2]>,
     /// Pixels a radius across the rim and along it, in each direction.
@@ -90,7 +90,7 @@ pub(super) fn between([from, to]: [f64; 2]) -> std::ops::Range<usize> {
     index(from)..index(to)
 }
 
-impl Rays {
+impl RingRays {
     /// Of a dot of this edge width.
     pub fn of(outline: Outline, edge_width: f64) -> Self {
         let Outline { p, q, r, .. } = outline;
@@ -131,7 +131,7 @@ impl Rays {
 
 impl Polar {
     /// Samples the surroundings of a dot.
-    pub fn sample<T: Sample>(plane: &Plane<T>, frame: &Frame, rays: &Rays) -> Self {
+    pub fn sample<T: Sample>(plane: &SampleView<T>, frame: &RingFrame, rays: &RingRays) -> Self {
         let level = |radius: f64, direction: [f64; 2]| {
             let [x, y] = frame.place(radius, direction);
             if plane.holds(x, y, 0.0) { plane.sample(x as f32, y as f32) } else { f32::NAN }
@@ -149,7 +149,7 @@ impl Polar {
     }
 
     /// Turns grey levels into shares of the contrast: takes off a background b0 + b1 x + b2 y and scales.
-    pub fn normalise(&mut self, rays: &Rays, background: [f64; 3], contrast: f64) {
+    pub fn normalise(&mut self, rays: &RingRays, background: [f64; 3], contrast: f64) {
         let scale = 1.0 / contrast;
         for (row, [c, s]) in self.levels.chunks_exact_mut(COUNT).zip(&rays.directions) {
             let slope = background[1] * c + background[2] * s;

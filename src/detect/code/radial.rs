@@ -13,20 +13,20 @@ use std::rc::Rc;
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use super::bands::{Band, Bands};
-use super::polar::{Frame, Polar, Rays, between, step};
+use super::bands::{BandSample, Bands};
+use super::polar::{Polar, RingFrame, RingRays, between, step};
 use super::sectors::{self, Division};
 use super::{outline_of, sign};
 use crate::detect::acceptance::code as limits;
 use crate::detect::outline::Outline;
 use crate::detection::Target;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Radii of the dot where its level is taken: clear of a spot in its centre and of its rim.
 const INSIDE: [f64; 3] = [0.3, 0.5, 0.7];
 /// Radii between the dot and every family's ring.
 const GAP: [f64; 3] = [1.4, 1.5, 1.6];
-/// Where the first sample lies, and how far outside of the ring the ground must be clear.
+/// Where the first sample lies, and how far outside of the ring the background must be clear.
 pub(super) const START: f64 = 1.2;
 pub(super) const GROUND: f64 = 0.42;
 /// Radii beyond a ring where another one is looked for, close enough together for a thin one.
@@ -40,12 +40,12 @@ const ROUGHLY_RING: [f64; 4] = [2.1, 2.5, 2.9, 3.3];
 /// Directions of a look.
 const LOOKS: usize = 60;
 
-/// What lies around a dot, direction by direction.
+/// Levels around a dot by direction.
 #[derive(Clone, Debug)]
 pub(super) struct Radial {
-    pub rays: Rc<Rays>,
+    pub rays: Rc<RingRays>,
     pub bands: Rc<Bands>,
-    /// What was sampled, as shares of the dot's contrast.
+    /// Sampled levels, as shares of the dot's contrast.
     pub polar: Polar,
     design: [f64; 2],
     middle: f64,
@@ -53,7 +53,7 @@ pub(super) struct Radial {
     pub gap: Vec<f64>,
     pub halves: Vec<f64>,
     pub outside: Vec<f64>,
-    /// How far the ground of each direction, as it is without a gap, halves or outside of their own, lies from the plane through all.
+    /// How far the background of each direction, as it is without a gap, halves or outside of their own, lies from the plane through all.
     pub ground: Vec<f64>,
     /// Rms of what the bands leave.
     pub misfit: f64,
@@ -61,29 +61,29 @@ pub(super) struct Radial {
     bare: f64,
     /// Share of the ring in what is sampled.
     share: f64,
-    /// Share of directions in which something of the dot's colour stands beyond the ring's ground, where that was looked at.
+    /// Share of directions in which something of the dot's colour stands beyond the ring's background, where that was examined.
     pub ringed: f64,
 }
 
 /// Level of the dot less that of the gap around it, where both are free of the rim.
-pub(in crate::detect) fn contrast<T: Sample>(plane: &Plane<T>, target: &Target) -> f64 {
+pub(in crate::detect) fn contrast<T: Sample>(plane: &SampleView<T>, target: &Target) -> f64 {
     let [dot, gap] = levels(plane, target);
     (dot - gap).abs()
 }
 
 /// Level of the dot, and of the gap around it.
-pub(super) fn levels<T: Sample>(plane: &Plane<T>, target: &Target) -> [f64; 2] {
-    let frame = Frame::new(outline_of(target), 0.0);
+pub(super) fn levels<T: Sample>(plane: &SampleView<T>, target: &Target) -> [f64; 2] {
+    let frame = RingFrame::new(outline_of(target), 0.0);
     [INSIDE, GAP].map(|radii| median(plane, &frame, radii))
 }
 
 /// Median level of the dot between its centre and its rim.
-fn inside<T: Sample>(plane: &Plane<T>, frame: &Frame) -> f64 {
+fn inside<T: Sample>(plane: &SampleView<T>, frame: &RingFrame) -> f64 {
     median(plane, frame, INSIDE)
 }
 
 /// Median level at these radii.
-fn median<T: Sample>(plane: &Plane<T>, frame: &Frame, radii: [f64; 3]) -> f64 {
+fn median<T: Sample>(plane: &SampleView<T>, frame: &RingFrame, radii: [f64; 3]) -> f64 {
     const AROUND: usize = 24;
     let mut levels = Vec::with_capacity(radii.len() * AROUND);
     for k in 0..AROUND {
@@ -98,21 +98,21 @@ fn median<T: Sample>(plane: &Plane<T>, frame: &Frame, radii: [f64; 3]) -> f64 {
 }
 
 /// Whether anything of the dot's colour stands where a ring would be.
-pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> bool {
-    let seen = like_dot(plane, target, &Frame::new(outline_of(target), 0.0), &LOOKED_AT);
+pub(super) fn may_have_ring<T: Sample>(plane: &SampleView<T>, target: &Target) -> bool {
+    let seen = like_dot(plane, target, &RingFrame::new(outline_of(target), 0.0), &LOOKED_AT);
     seen * limits::LOOKED >= LOOKS
 }
 
 /// Whether something of an outline that is roughly known may be a dot in a ring: a gap around it, from which it stands out by `least`, and
 /// something of its colour where a ring would be.
 pub(in crate::detect) fn may_be_in_ring<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     bright: bool,
     least: f64,
 ) -> bool {
     const AROUND: usize = 24;
-    let frame = Frame::new(*outline, 0.0);
+    let frame = RingFrame::new(*outline, 0.0);
     let directions: [[f64; 2]; AROUND] = std::array::from_fn(|k| {
         let (s, c) = (std::f64::consts::TAU * k as f64 / AROUND as f64).sin_cos();
         [c, s]
@@ -131,7 +131,7 @@ pub(in crate::detect) fn may_be_in_ring<T: Sample>(
 }
 
 /// Number of the [`LOOKS`] directions in which something of the dot's colour stands at one of these radii.
-fn like_dot<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, radii: &[f64]) -> usize {
+fn like_dot<T: Sample>(plane: &SampleView<T>, target: &Target, frame: &RingFrame, radii: &[f64]) -> usize {
     let dot = inside(plane, frame);
     let limit = (1.0 - limits::SET) * target.contrast.min(f64::from(T::MAX));
     let is_like = |direction: [f64; 2], radius: f64| {
@@ -143,12 +143,12 @@ fn like_dot<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, radii: 
 }
 
 impl Radial {
-    /// Of a target as it was sampled in this frame, with the bands of a design; none where the ring leaves the picture or the dot has no
+    /// Of a target as it was sampled in this frame, with the bands of a design; `None` if the ring leaves the picture or the dot has no
     /// contrast.
     pub fn of<T: Sample>(
-        plane: &Plane<T>,
+        plane: &SampleView<T>,
         target: &Target,
-        frame: &Frame,
+        frame: &RingFrame,
         polar: &Polar,
         bands: &Rc<Bands>,
     ) -> Option<Self> {
@@ -175,7 +175,7 @@ impl Radial {
     }
 
     /// The same with what stands around the ring in this frame.
-    pub fn with_neighbours<T: Sample>(self, plane: &Plane<T>, target: &Target, frame: &Frame) -> Self {
+    pub fn with_neighbours<T: Sample>(self, plane: &SampleView<T>, target: &Target, frame: &RingFrame) -> Self {
         let radii = BEYOND.map(|beyond| self.design[1] + beyond);
         Self { ringed: like_dot(plane, target, frame, &radii) as f64 / LOOKS as f64, ..self }
     }
@@ -210,7 +210,7 @@ impl Radial {
             let is_whole = levels.iter().all(|level| !level.is_nan());
             let seen = || levels.iter().zip(row).filter(|(level, _)| !level.is_nan());
             let mut right = Vector4::<f64>::zeros();
-            for (level, Band { dot, basis }) in seen() {
+            for (level, BandSample { dot, basis }) in seen() {
                 right += basis * (f64::from(*level) - dot);
             }
             let factor = if is_whole { bands.factor(j) } else { bands.factor_of(seen().map(|(_, band)| band)) };
@@ -219,7 +219,7 @@ impl Radial {
             ring.push(found[1]);
             halves.push(found[2]);
             outside.push(found[3]);
-            for (level, Band { dot, basis }) in seen() {
+            for (level, BandSample { dot, basis }) in seen() {
                 squares += (f64::from(*level) - dot - basis.dot(&found)).powi(2);
                 number += 1;
             }
@@ -285,7 +285,7 @@ impl Radial {
 }
 
 /// Share of the dot's contrast that blur leaves where its level is taken.
-fn seen_inside(rays: &Rays) -> f64 {
+fn seen_inside(rays: &RingRays) -> f64 {
     let share = |across: f64, r: f64| {
         let scale = across / rays.blur;
         step((1.0 - r) * scale) + step((1.0 + r) * scale) - 1.0
@@ -300,7 +300,7 @@ fn grounds(polar: &Polar, bands: &Bands) -> Vec<[f64; 2]> {
     let of = |j: usize| {
         let (mut number, mut ring, mut square) = (0.0, 0.0, 0.0);
         let (mut sums, mut with_ring) = ([0.0; 2], [0.0; 2]);
-        for (level, Band { dot, basis }) in polar.row(j)[bands.samples.clone()].iter().zip(bands.row(j)) {
+        for (level, BandSample { dot, basis }) in polar.row(j)[bands.samples.clone()].iter().zip(bands.row(j)) {
             let level = f64::from(*level);
             if level.is_nan() {
                 continue;
@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_dot_may_stand_in_a_ring_where_a_gap_and_something_of_its_colour_are_around_it() {
-        // dots of 5 px: in a ring of two sectors, alone, joined with what lies around, and on the other polarity's ground
+        // dots of 5 px: in a ring of two sectors, alone, joined with what lies around, and on the other polarity's background
         let seen = |ring: [f64; 2], gap: f64, bright: bool| {
             let level = |i: usize| {
                 let [x, y] = [(i % 60) as f64 - 29.5, (i / 60) as f64 - 29.5];
@@ -381,7 +381,7 @@ mod tests {
             // the outline is known to a fifth of its size
             [4.2, 5.0, 5.8].map(|radius| {
                 let outline = Outline::from_axes(30.0, 30.0, radius, radius, 0.0);
-                may_be_in_ring(&Plane::new(60, 60, &samples), &outline, bright, 60.0)
+                may_be_in_ring(&SampleView::new(60, 60, &samples), &outline, bright, 60.0)
             })
         };
         assert_eq!(seen([2.0, 3.0], 40.0, true), [true; 3]);

@@ -7,12 +7,12 @@
 //! ```
 //!
 //! with the distance d in pixels of the place from the ray. Least squares over x gives each sector its level freed of its
-//! neighbours' blur, together with its standard error; narrow sectors of a tilted ring could not be told apart otherwise. The phase
+//! neighbours' blur, together with its standard error; narrow sectors of a tilted ring could not be distinguished otherwise. The phase
 //! starts at that of the n-th harmonic of the edges, Σ |dy|² exp(i n t), and is refined where the binary model misfits least.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 
-use super::polar::{Rays, step};
+use super::polar::{RingRays, step};
 use crate::detect::acceptance::code::{ENDS, ENDS_RMS, HOPELESS, MISFIT, SAME, STANDS_OUT, UNEVEN};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
@@ -23,11 +23,11 @@ const NEAR: usize = 3;
 
 /// How near to its middle a direction lies well inside of a sector.
 const INNER: f64 = 0.35;
-/// What holds the level of set sectors alike all around, against the weight of one direction.
+/// Weight of the condition that set sectors have equal levels, relative to that of one direction.
 const STEADY: f64 = 0.05;
-/// What holds the plane of light even, in sectors.
+/// Weight of the condition that the light is constant, in sectors.
 const EVEN: f64 = 0.5;
-/// What holds sectors that blur has hidden, against the weight of one that is seen.
+/// Weight of the condition on sectors hidden by blur, relative to that of a visible one.
 const RIDGE: f64 = 0.01;
 
 /// A division of a ring.
@@ -50,8 +50,8 @@ pub(super) struct Division {
     inverse: DMatrix<f64>,
 }
 
-/// The best division into `n` sectors of levels around a ring whose middle is at `radius`; none where nothing stands out.
-pub(super) fn divide(rays: &Rays, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
+/// The best division into `n` sectors of levels around a ring whose middle is at `radius`; `None` if nothing stands out.
+pub(super) fn divide(rays: &RingRays, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
     let sector = std::f64::consts::TAU / f64::from(n);
     let mut phase = first_phase(rays, levels, n);
     let mut best: Option<Tried> = None;
@@ -79,7 +79,7 @@ pub(super) fn divide(rays: &Rays, levels: &[f64], radius: f64, n: u32) -> Option
 }
 
 /// Phase of the n-th harmonic of the edges.
-fn first_phase(rays: &Rays, levels: &[f64], n: u32) -> f64 {
+fn first_phase(rays: &RingRays, levels: &[f64], n: u32) -> f64 {
     let count = levels.len();
     let turn = std::f64::consts::TAU / count as f64;
     let mut sums = [0.0; 2];
@@ -106,7 +106,7 @@ struct Tried {
     factor: Cholesky<f64, Dyn>,
 }
 
-fn at_phase(rays: &Rays, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Tried> {
+fn at_phase(rays: &RingRays, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Tried> {
     let count = n as usize;
     let shares = shares(rays, radius, n, phase);
     let weights = &rays.arc;
@@ -173,7 +173,7 @@ fn rest(model: &DVector<f64>, shares: &[Shares], levels: &[f64], weights: &[f64]
 }
 
 impl Tried {
-    fn finish(self, rays: &Rays, levels: &[f64]) -> Division {
+    fn finish(self, rays: &RingRays, levels: &[f64]) -> Division {
         let Self { found, bits, low, high, misfit, phase, shares, factor } = self;
         let (count, weights) = (found.len(), &rays.arc);
         let inverse = factor.inverse();
@@ -202,7 +202,7 @@ impl Shares {
     }
 }
 
-fn shares(rays: &Rays, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
+fn shares(rays: &RingRays, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
     let sector = std::f64::consts::TAU / f64::from(n);
     let count = n as usize;
     // direction of each ray, and what turns a sine into a distance in blurs
@@ -232,7 +232,7 @@ fn shares(rays: &Rays, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
 
 impl Division {
     /// Other levels around the same ring, sector by sector.
-    pub fn sectors(&self, rays: &Rays, levels: &[f64]) -> Vec<f64> {
+    pub fn sectors(&self, rays: &RingRays, levels: &[f64]) -> Vec<f64> {
         let count = self.levels.len();
         let mut right = DVector::<f64>::zeros(count);
         for ((row, level), weight) in self.shares.iter().zip(levels).zip(&rays.arc) {
@@ -242,7 +242,7 @@ impl Division {
         found.iter().copied().collect()
     }
 
-    /// What a direction shows of the set sectors, each at its own level.
+    /// Levels of the set sectors in one direction, each sector with its own level.
     pub fn seen(&self, direction: usize) -> f64 {
         let set = self.shares[direction].of(self.levels.len()).filter(|(k, _)| self.is_set(*k));
         set.map(|(k, share)| share * self.levels[k]).sum()
@@ -289,7 +289,7 @@ impl Division {
 
     /// Largest distance of an arc's end from the grid, or the rms of all, over what it may be. All ends of a code are where they belong but
     /// for chance; a ring of other sectors that has none far from the grid has many a little off.
-    pub fn off_grid(&self, rays: &Rays, levels: &[f64], radius: f64) -> f64 {
+    pub fn off_grid(&self, rays: &RingRays, levels: &[f64], radius: f64) -> f64 {
         let shifts = self.shifts(rays, levels, radius);
         let over =
             |limit: [f64; 2]| move |[shift, sector_px]: &[f64; 2]| shift.abs() / (limit[0] + limit[1] / sector_px);
@@ -301,7 +301,7 @@ impl Division {
     /// Distance of each arc's end from the grid in sectors, and a sector's width there in pixels. What stands on the wrong side of an end,
     /// as far as half a sector to both sides, is its shift times the step between the levels, whatever the blur. Light changes the level of
     /// set sectors around the ring: a plane goes through what lies well inside of them.
-    fn shifts(&self, rays: &Rays, levels: &[f64], radius: f64) -> Vec<[f64; 2]> {
+    fn shifts(&self, rays: &RingRays, levels: &[f64], radius: f64) -> Vec<[f64; 2]> {
         let n = self.levels.len();
         let (count, directions) = (n as f64, levels.len() as f64);
         let sector_of = |j: usize| {
@@ -349,7 +349,7 @@ impl Division {
         changes.map(|k| (self.phase / std::f64::consts::TAU + k as f64 / n as f64).rem_euclid(1.0)).collect()
     }
 
-    /// Whether two divisions have the same arcs: then no picture tells them apart.
+    /// Whether two divisions have the same arcs: then no picture can distinguish them.
     pub fn same_arcs(&self, other: &Self) -> bool {
         let (a, b) = (self.changes(), other.changes());
         let limit = SAME / self.levels.len().max(other.levels.len()) as f64;
@@ -380,7 +380,7 @@ mod tests {
 
     #[test]
     fn light_is_a_plane_through_the_set_sectors() {
-        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
+        let rays = RingRays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
         let lit = |ends: &[[f64; 2]]| {
             let mut levels = ring(ends, rays.directions.len());
             levels.iter_mut().zip(&rays.directions).for_each(|(level, [c, _])| *level *= 1.0 + 0.2 * c);
@@ -392,14 +392,14 @@ mod tests {
             let truth = 1.0 + 0.2 * (30f64.to_radians() * (k as f64 + 0.5)).cos();
             assert!((level - truth).abs() < 0.04, "{k}: {level} {truth}");
         }
-        // a single arc says little of the other side
+        // a single arc hardly determines the other side
         let arc = lit(&[[0.0, 2.0]]);
         assert!(arc.iter().all(|level| (level - arc[0]).abs() < 0.1), "{arc:?}");
     }
 
     #[test]
     fn products_summed_by_sector_are_those_of_the_definition() {
-        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 9.0, 0.4), 1.8);
+        let rays = RingRays::of(Outline::from_axes(100.0, 100.0, 15.0, 9.0, 0.4), 1.8);
         let levels = ring(&[[1.0, 3.0], [5.0, 6.3], [8.0, 11.0]], rays.directions.len());
         for (n, phase) in [(12, 0.0), (14, 0.2), (16, -0.1), (20, 3.0)] {
             let count = n as usize;
@@ -422,7 +422,7 @@ mod tests {
 
     #[test]
     fn ends_off_the_grid_are_told_and_those_on_it_are_not() {
-        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
+        let rays = RingRays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
         let off = |ends: &[[f64; 2]]| {
             let levels = ring(ends, rays.directions.len());
             let division = divide(&rays, &levels, 2.5, 12).unwrap();

@@ -1,6 +1,6 @@
-//! How blurred a target's edges are, from how steep they are; and from which blur on that asks for something else.
+//! How blurred a target's edges are, from how steep they are; and the blur above which another method is used.
 
-use super::edge::{self, Profile};
+use super::edge::{self, EdgeProfile};
 use super::surround::Surround;
 pub(crate) use crate::detect::acceptance::blur::{BLURRED, DEFOCUSED, SHARP, SOFT};
 use crate::detect::ellipse::outline::Outline;
@@ -26,15 +26,15 @@ pub(crate) fn of(strength: f64, contrast: f64) -> f64 {
     ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
 }
 
-/// Profile of the edges of an outline, from its surround and the edges' steepness; `blur` is a first estimate.
-pub(crate) fn profile(outline: &Outline, surround: &Surround, strength: f64, mut blur: f64) -> Profile {
+/// Profile of the edges of an outline, from its annulus and the edges' steepness; `blur` is a first estimate.
+pub(crate) fn profile(outline: &Outline, surround: &Surround, strength: f64, mut blur: f64) -> EdgeProfile {
     // half-way to the rim a small target is not as bright as it would be without blur
     let mut contrast = surround.contrast;
     for _ in 0..3 {
         contrast = surround.contrast / edge::half_way(outline.semi_axes().1, blur);
         blur = of(strength, contrast.abs());
     }
-    Profile {
+    EdgeProfile {
         level: surround.level,
         slope: surround.slope,
         origin: [outline.u, outline.v],

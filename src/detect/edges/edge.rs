@@ -6,11 +6,11 @@
 
 use wide::{f32x4, i32x4};
 
-use super::through::Scratch;
+use super::ellipse_fit::Scratch;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::{FourRims, Rays, quarter, rim_points};
 use crate::detect::normal::{BLUR, normal_distribution};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Edges looked for on the rays of an outline, one array a quantity. As many as a multiple of four.
 #[derive(Default)]
@@ -19,9 +19,9 @@ pub(crate) struct Edges {
     pub origin: [f64; 2],
     pub x: Vec<f32>,
     pub y: Vec<f32>,
-    /// Grey difference over two pixels across the edge; 0 where no edge was found.
+    /// Grey difference over two pixels across the edge; 0 if no edge was found.
     pub strength: Vec<f32>,
-    /// 1 for what the fit uses, 0 for what is hidden or disturbed.
+    /// 1 for what the fit uses, 0 for what is occluded or disturbed.
     pub kept: Vec<f32>,
     /// Memory of the fits through them.
     pub scratch: Scratch,
@@ -73,7 +73,7 @@ pub(crate) fn ray_count(outline: &Outline) -> usize {
 /// Looks for the edge on `count` rays, up to `reach` pixels inside and outside of the outline.
 #[inline(never)]
 pub(crate) fn search<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     bright: bool,
     reach: f64,
@@ -116,7 +116,13 @@ fn weight(distance: f32, side: usize) -> f32 {
 
 /// Steepest place on each of four rays, from the rim outwards, and the fall over two pixels there.
 #[inline(always)]
-fn walk<T: Sample>(plane: &Plane<T>, outline: &Outline, rims: &FourRims, side: usize, sign: f32) -> (f32x4, f32x4) {
+fn walk<T: Sample>(
+    plane: &SampleView<T>,
+    outline: &Outline,
+    rims: &FourRims,
+    side: usize,
+    sign: f32,
+) -> (f32x4, f32x4) {
     let one = f32x4::splat(65536.0);
     let back = f32x4::splat(side as f32 + 1.0);
     let start = |middle: f64, rim: f32x4, normal: f32x4| {
@@ -142,7 +148,7 @@ fn walk<T: Sample>(plane: &Plane<T>, outline: &Outline, rims: &FourRims, side: u
 /// The same where rays leave the picture, or so far from its origin that they cannot be walked: sample by sample.
 #[inline(never)]
 fn at_border<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     rims: &FourRims,
     side: usize,
@@ -217,7 +223,7 @@ impl Steepest {
 /// samples on each side. Its noise moves an edge of blur s = `wide` by about 4 s n / C.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn search_wide<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     bright: bool,
     reach: f64,
@@ -259,9 +265,9 @@ pub(crate) fn search_wide<T: Sample>(
     }
 }
 
-/// What is known of a target's grey levels when its edges are refined.
+/// Grey levels of a target for the refinement of its edges.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Profile {
+pub(crate) struct EdgeProfile {
     /// Background at the origin of the slope and its slope.
     pub level: f64,
     pub slope: [f64; 2],
@@ -302,7 +308,7 @@ fn refined_side(blur: f64) -> usize {
 
 /// A sample on a ray: its level between background (0) and target (1), the four pixels it is drawn from by their weights
 /// and their distances from the outline.
-type Drawn = (f64, [f64; 4], [f64; 4]);
+type RaySample = (f64, [f64; 4], [f64; 4]);
 
 /// Edge points by fitting each ray's profile for its shift δ: Gauss-Newton steps of one unknown. All samples across the edge
 /// count, each with the derivative of the profile as its weight.
@@ -311,15 +317,15 @@ type Drawn = (f64, [f64; 4], [f64; 4]);
 /// bilinear sampling does to an edge depends on where it lies between the pixels, and would move the centre by half its
 /// standard error. The second term is the light that a rim of curvature κ lacks, in first order.
 pub(crate) fn refine<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
-    profile: &Profile,
+    profile: &EdgeProfile,
     count: usize,
     found: &mut Edges,
 ) {
     found.begin(outline, count);
     let side = refined_side(profile.blur);
-    let mut samples: Vec<Drawn> = Vec::with_capacity(2 * side + 1);
+    let mut samples: Vec<RaySample> = Vec::with_capacity(2 * side + 1);
     for (ray, rim) in rim_points(outline, count).enumerate() {
         samples.clear();
         samples.extend((0..=2 * side).map(|i| {
@@ -347,7 +353,7 @@ pub(crate) fn refine<T: Sample>(
 }
 
 /// The bilinear sample at a place.
-fn draw<T: Sample>(plane: &Plane<T>, outline: &Outline, profile: &Profile, x: f64, y: f64) -> Drawn {
+fn draw<T: Sample>(plane: &SampleView<T>, outline: &Outline, profile: &EdgeProfile, x: f64, y: f64) -> RaySample {
     let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
     let (fx, fy) = (x - 0.5 - left, y - 0.5 - top);
     let weights = [(1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy];
@@ -377,7 +383,7 @@ mod tests {
     fn four_rays_walked_are_as_sample_by_sample() {
         let level = |x: usize, y: usize| ((x * 37 + y * 91 + x * y % 53) % 200) as u16;
         let samples: Vec<u16> = (0..90 * 90).map(|i| 300 * level(i % 90, i / 90)).collect();
-        let plane = Plane::new(90, 90, &samples);
+        let plane = SampleView::new(90, 90, &samples);
         let outline = Outline::from_axes(44.7, 45.2, 17.0, 11.0, 0.7);
         for (side, sign) in [(2, 1.0), (9, -1.0)] {
             for [c, s] in quarter(40) {

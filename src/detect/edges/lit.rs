@@ -13,9 +13,9 @@ use super::surround::Surround;
 use crate::detect::acceptance::fit::FLAT;
 use crate::detect::acceptance::light::{CORE, FLOOR, STEEPEST};
 use crate::detect::ellipse::outline::Outline;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
-/// Least light that a level is divided by, in units of that at the centre.
+/// Minimum light that a level is divided by, in units of that at the centre.
 const DIMMEST: f64 = 0.1;
 
 /// The slope of the light across a disc.
@@ -28,9 +28,9 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// Around an outline of this blur, of which nothing is hidden if it is `whole`; samples from `saturation` on say nothing.
+    /// Around an outline of this blur, of which nothing is occluded if it is `whole`; samples from `saturation` on say nothing.
     pub fn of<T: Sample>(
-        plane: &Plane<T>,
+        plane: &SampleView<T>,
         outline: &Outline,
         surround: &Surround,
         blur: f64,
@@ -41,7 +41,7 @@ impl Light {
         let [uu, uv, vv] = surround.slope_covariance;
         let ground = Matrix2::new(uu + FLOOR, uv, uv, vv + FLOOR);
         if f64::from(plane.nearest(outline.u, outline.v)) >= saturation {
-            // what is clipped has the same level in any light
+            // what is saturated has the same level in any light
             let covariance = SMatrix::from_fn(|i, j| if i < 2 && j < 2 { ground[(i, j)] } else { 0.0 });
             return Self { slope: [0.0; 2], covariance };
         }
@@ -86,18 +86,18 @@ impl Light {
 
 /// The pixels of a disc and around it.
 struct Pixels<'a, T> {
-    plane: &'a Plane<'a, T>,
+    plane: &'a SampleView<'a, T>,
     outline: &'a Outline,
     saturation: f64,
 }
 
 impl<T: Sample> Pixels<'_, T> {
-    /// Slope of the levels inside, further than `margin` from the rim, and its covariance. None where too little is left, or it is clipped.
+    /// Slope of the levels inside, further than `margin` from the rim, and its covariance. `None` if too little is left, or it is saturated.
     fn inside(&self, reference: f64, margin: f64) -> Option<(Vector2<f64>, Matrix2<f64>)> {
         if self.outline.semi_axes().1 < margin + CORE[0] {
             return None;
         }
-        let mut sums = Sums::default();
+        let mut sums = LitPlaneSums::default();
         let mut clipped = false;
         self.visit(&self.outline.grown(-margin), &mut |level, x, y| {
             clipped |= level >= self.saturation || level <= 0.0;
@@ -106,11 +106,11 @@ impl<T: Sample> Pixels<'_, T> {
         if clipped { None } else { sums.slope() }
     }
 
-    /// The same around the disc, as far as its surround goes; rings of single pixels know less. What is far from the surround's plane does not
+    /// The same around the disc, as far as its annulus goes; rings of single pixels know less. What is far from the annulus's plane does not
     /// count.
     fn around(&self, surround: &Surround, margin: f64) -> Option<(Vector2<f64>, Matrix2<f64>)> {
         let near = self.outline.grown(margin);
-        let mut sums = Sums::default();
+        let mut sums = LitPlaneSums::default();
         let limit = FLAT[0] * surround.noise.max(FLAT[1]);
         self.visit(&self.outline.grown(surround.outer), &mut |level, x, y| {
             let [c, s] = near.normalised(x + self.outline.u, y + self.outline.v);
@@ -138,13 +138,13 @@ impl<T: Sample> Pixels<'_, T> {
 
 /// Normal equations of a plane.
 #[derive(Default)]
-struct Sums {
+struct LitPlaneSums {
     normal: Matrix3<f64>,
     right: Vector3<f64>,
     square: f64,
 }
 
-impl Sums {
+impl LitPlaneSums {
     fn add(&mut self, level: f64, x: f64, y: f64) {
         let row = Vector3::new(1.0, x, y);
         self.normal += row * row.transpose();
@@ -189,7 +189,7 @@ mod tests {
         let outline = Outline::from_axes(45.0, 45.0, 14.0, 14.0, 0.0);
         for (light, ground) in [(0.0, 9000.0), (0.004, 9000.0), (0.004, 300.0), (-0.002, 4e4)] {
             let samples = picture(light, ground);
-            let plane = Plane::new(90, 90, &samples);
+            let plane = SampleView::new(90, 90, &samples);
             let surround = surround::measure(&plane, &outline, 0.7, &[true; 48], u32::MAX).unwrap();
             let found = Light::of(&plane, &outline, &surround, 0.7, true, 65535.0).slope;
             assert!((found[0] - light).hypot(found[1] + 0.5 * light) < 2e-4, "{light} {ground}: {found:?}");

@@ -8,13 +8,13 @@
 use nalgebra::SMatrix;
 use wide::f32x4;
 
-use super::edge::{Edges, Profile, slopes};
+use super::edge::{EdgeProfile, Edges, slopes};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::rim_points;
 use crate::detect::normal::normal_distribution;
 
 /// Sensitivity of a centre to its pixels.
-pub(crate) struct Influence {
+pub(crate) struct CentreSensitivity {
     /// Covariance (uu, uv, vv) of the centre for pixels of unit noise.
     pub noise: [f64; 3],
     /// Change of the centre with the slope of the background that is taken off, and with that of the contrast.
@@ -35,11 +35,11 @@ fn normal_share(z: f64) -> f64 {
 /// normal matrix.
 pub(crate) fn influence(
     cast: &Outline,
-    profile: &Profile,
+    profile: &EdgeProfile,
     points: &Edges,
     fitted: &Outline,
     cofactors: &SMatrix<f64, 5, 5>,
-) -> Influence {
+) -> CentreSensitivity {
     let slopes = slopes(profile.blur);
     let side = (slopes.len() / 2) as f64;
     let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
@@ -89,5 +89,5 @@ pub(crate) fn influence(
             }
         }
     }
-    Influence { noise: [sum(0, 0), sum(0, 1), sum(1, 1)], slope, light, edge: edges / used.max(1) as f64 }
+    CentreSensitivity { noise: [sum(0, 0), sum(0, 1), sum(1, 1)], slope, light, edge: edges / used.max(1) as f64 }
 }

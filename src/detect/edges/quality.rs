@@ -3,14 +3,15 @@
 //! Three numbers separate circular targets from letters, corners and texture that happen to carry an ellipse: the rms of
 //! the edge points from the ellipse, against what noise alone would do to them; the part of the residuals of the rendered
 //! fit that noise does not explain and that differs around the rim, as a share of the contrast (a lens does the same all
-//! around); and the longest gap in the outline. A gap is believed to be something in front of a target only when the rest is
+//! around); and the longest gap in the outline. A gap counts as an occluder in front of a target only if the rest is
 //! as good as noise allows, since the bowl of a letter is an ellipse with a gap too.
 
-use super::through::EllipseFit;
-use crate::detect::acceptance::{fit, levels::SHAPELY, outline as limits};
-use crate::detect::picture::noise::Levels;
+use super::ellipse_fit::EllipseFit;
+use crate::detect::acceptance::levels::{FAINT, SHAPELY};
+use crate::detect::acceptance::{fit, outline as limits};
+use crate::detect::picture::noise::GreyStatistics;
 
-/// What noise n does to the steepest place of an edge of contrast C and blur s, in units of n / C. With the blur the fall over two
+/// Scatter of the steepest place of an edge of contrast C and blur s by noise n, in units of n / C. With the blur the fall over two
 /// pixels bends less; out of focus it is searched between means ([`search_wide`](super::edge::search_wide)).
 pub(crate) fn steepest(blur: f64) -> f64 {
     (limits::SPREAD_CUBE * blur.powi(3)).min(limits::SPREAD_WIDE * blur).max(limits::SPREAD)
@@ -23,12 +24,12 @@ pub(crate) fn fitted(blur: f64) -> f64 {
 
 /// Largest rms distance of edge points from a good outline of semi-minor axis b, in pixels, where noise n moves an edge of contrast
 /// C by `spread` n / C.
-pub(crate) fn expected_scatter(b: f64, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> f64 {
+pub(crate) fn expected_scatter(b: f64, levels: &GreyStatistics, noise: f64, contrast: f64, spread: f64) -> f64 {
     spread * noise / contrast.max(1e-9) + limits::SHAPE * b + levels.jag()
 }
 
 /// Rms of the edge points relative to that: below 1 for a good outline.
-fn edge_ratio(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> f64 {
+fn edge_ratio(ellipse: &EllipseFit, levels: &GreyStatistics, noise: f64, contrast: f64, spread: f64) -> f64 {
     ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, levels, noise, contrast, spread)
 }
 
@@ -54,15 +55,21 @@ pub(crate) fn has_shape(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool
 }
 
 /// Whether the outline alone still allows a target.
-pub(crate) fn outline_allows(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> bool {
-    let gap_allows = gap(ellipse) <= limits::SMALL_GAP || contrast > limits::GAP_CONTRAST * noise;
+pub(crate) fn outline_allows(
+    ellipse: &EllipseFit,
+    levels: &GreyStatistics,
+    noise: f64,
+    contrast: f64,
+    spread: f64,
+) -> bool {
+    let gap_allows = gap(ellipse) <= limits::SMALL_GAP || contrast > FAINT * noise;
     size_allows(ellipse) && gap_allows && edge_ratio(ellipse, levels, noise, contrast, spread) < limits::SCATTER
 }
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
 pub(crate) fn is_target(
     ellipse: &EllipseFit,
-    levels: &Levels,
+    levels: &GreyStatistics,
     uneven: f64,
     noise: f64,
     contrast: f64,
@@ -72,7 +79,7 @@ pub(crate) fn is_target(
     let misfit = (uneven * uneven - noise * noise).max(0.0).sqrt() / contrast;
     let [least, growth, most] = fit::MISFIT;
     let limit = (least + growth * (minor - fit::MISFIT_MINOR)).clamp(least, most)
-        * (contrast / (fit::MISFIT_FAINT * noise)).clamp(fit::MISFIT_LEAST, 1.0);
+        * (contrast / (fit::MISFIT_FAINT * noise)).min(1.0);
     let limit = if levels.stairs { fit::MISFIT_STAIRS } else { limit };
     let edge = edge_ratio(ellipse, levels, noise, contrast, spread);
     edge * edge + (misfit / limit).powi(2) < fit::TOGETHER

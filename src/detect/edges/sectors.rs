@@ -1,16 +1,16 @@
 //! Finds the occluded sector of an outline: the one without which an ellipse fits its edges best.
 //!
 //! Near the start the distances d of the edges are linear in the corrections x of (u, v, p, q, r): d = J x + e. For every sector
-//! the normal equations are those of all edges less its own, N x = r, and e'e = d'd - r'x tells how well the others agree. That
-//! takes one factorisation of a 5 x 5 matrix a sector; only the best few are worth a robust fit. Where more rays than may
-//! miss outside of a sector have no edge at all, it needs none.
+//! the normal equations are those of all edges minus those of the sector, N x = r, and e'e = d'd - r'x measures how well the others
+//! agree. That takes one factorisation of a 5 x 5 matrix per sector; only the best few get a robust fit. A sector is skipped if too many
+//! rays outside of it have no edge.
 
 use super::edge::Edges;
-use crate::detect::acceptance::covered::{EVEN, OTHERS};
+use crate::detect::acceptance::{occlusion::EVEN, outline::SMALL_GAP};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
 
-/// Places of each size of a sector, around the outline.
+/// Number of positions of a sector around the outline.
 const PLACES: usize = 16;
 
 /// Unknowns, and the entries of the lower triangle of their normal matrix with the right-hand side and the sum of squares below.
@@ -19,13 +19,13 @@ const ENTRIES: usize = (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2;
 
 /// Normal equations, bordered by their right-hand side and the sum of squares: sums of products of (J, d), row by row.
 #[derive(Clone, Copy)]
-struct Normal {
+struct BorderedNormalEquations {
     sums: [f64; ENTRIES],
-    /// Edges in the sums.
+    /// Number of edges in the sums.
     count: usize,
 }
 
-impl Normal {
+impl BorderedNormalEquations {
     fn none() -> Self {
         Self { sums: [0.0; ENTRIES], count: 0 }
     }
@@ -45,7 +45,7 @@ impl Normal {
         Self { sums: std::array::from_fn(|i| self.sums[i] - other.sums[i]), count: self.count - other.count }
     }
 
-    /// Root mean square of what is left after the adjustment: the last pivot of the bordered matrix is e'e.
+    /// Root mean square of the residuals: the last pivot of the bordered matrix is e'e.
     fn rms(&self) -> Option<f64> {
         let row = |i: usize| i * (i + 1) / 2;
         let mut factor = self.sums;
@@ -80,12 +80,12 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
             })
         })
         .collect();
-    // what lies far off belongs to something else
+    // distant edges belong to another object
     let mut sizes = Vec::new();
     let typical = median::of_sizes(rays.iter().flatten().map(|(_, distance)| distance.abs() as f32), &mut sizes);
     let limit = (3.0 * 1.4826 * typical).max(1.0 + 0.05 * outline.semi_axes().1);
     let near = |ray: &Option<([f64; UNKNOWNS], f64)>| ray.filter(|(_, distance)| distance.abs() <= limit);
-    // twice around: edges up to each ray, which tell without any sums of most sectors that they leave too few
+    // twice around: number of edges up to each ray, by which most sectors are rejected without sums
     let mut taken = Vec::with_capacity(2 * count + 1);
     taken.push(0);
     for ray in rays.iter().chain(&rays) {
@@ -98,14 +98,14 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
         let inside = taken[sector.end] - taken[sector.start];
         let left = taken[count] - inside;
         let missing = (count - taken[count]) - (sector.len() - inside);
-        left >= 8.max(count / 3) && missing as f64 <= OTHERS * count as f64
+        left >= 8.max(count / 3) && missing as f64 <= SMALL_GAP * count as f64
     };
     if !shares.iter().any(|share| (0..PLACES).any(|k| enough(*share, place(k)))) {
         return Vec::new();
     }
     // running sums over the same rays
     let mut running = Vec::with_capacity(2 * count + 1);
-    let mut sums = Normal::none();
+    let mut sums = BorderedNormalEquations::none();
     running.push(sums);
     for ray in rays.iter().chain(&rays) {
         if let Some((moves, distance)) = near(ray) {
@@ -134,8 +134,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_sector_beside_what_lies_far_off_is_not_promising() {
-        // a cover's own edge a few pixels inside, on 9 rays of 32; the others scatter, but for an even half of them
+    fn distant_edges_are_not_counted() {
+        // the edge of an occluder a few pixels inside, on 9 of 32 rays; half of the others have no scatter
         let outline = Outline::from_axes(100.3, 80.2, 20.0, 16.0, 0.4);
         let mut edges = Edges::default();
         edges.begin(&outline, 32);
@@ -157,12 +157,12 @@ mod tests {
     }
 
     #[test]
-    fn what_a_sector_leaves_is_that_of_an_adjustment_without_it() {
+    fn the_residuals_agree_with_an_adjustment_without_the_sector() {
         let wave = |k: usize| (1.7 * k as f64 + 0.3 * (k * k) as f64).sin();
         let row = |k: usize| (std::array::from_fn(|i| wave(6 * k + i)), 0.3 * wave(6 * k + 5));
         let rows: Vec<([f64; UNKNOWNS], f64)> = (0..40).map(row).collect();
         let sums = |rows: &[([f64; UNKNOWNS], f64)]| {
-            let mut sums = Normal::none();
+            let mut sums = BorderedNormalEquations::none();
             rows.iter().for_each(|(moves, distance)| sums.add(*moves, *distance));
             sums
         };

@@ -2,18 +2,18 @@
 //!
 //! Rings of single pixels are read outside of the rim, from where its blur ends to a radius beyond. The nearest ring fixes a
 //! plane robustly; every further ring that agrees with it in mean and spread is added, the first that does not ends the
-//! surround: a card's edge, a code ring, a neighbour. A wide background matters: over a narrow one the slope of the light cannot be
-//! told from a shift of the target.
+//! annulus: a card's edge, a code ring, a neighbour. A wide background matters: over a narrow one the slope of the light cannot be
+//! separated from a shift of the target.
 
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
-use super::look::QUARTER;
-use crate::detect::acceptance::levels::{RING, RING_NOISE, RING_TENTHS};
+use super::quick_test::QUARTER;
+use crate::detect::acceptance::levels::{QUIET, RING, RING_TENTHS};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::{Rays, rim_points};
 use crate::detect::median;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Grey levels around a target.
 #[derive(Clone, Copy, Debug)]
@@ -33,17 +33,17 @@ pub(crate) struct Surround {
     pub outer: f64,
 }
 
-/// Width of the surround at most, in mean radii and six pixels: there the unknown slope of the light costs the centre of a bright disc on a
-/// ground of a sixth of its level 1 to 3 % of its standard error, against 3 to 12 % in a width of 1; in a wider one light is no plane.
+/// Width of the annulus at most, in mean radii and six pixels: there the unknown slope of the light costs the centre of a bright disc on a
+/// background of a sixth of its level 1 to 3 % of its standard error, against 3 to 12 % in a width of 1; in a wider one light is no plane.
 const WIDTH: f64 = 2.0;
 
 /// A sample: place relative to the centre, level less that of the centre.
 type Spot = [f64; 3];
 
-/// Measures the surround in at most so many rings; rays that are not `kept` are left out. None when too little of it lies in
+/// Measures the annulus in at most so many rings; rays that are not `kept` are left out. `None` if too little of it lies in
 /// the picture.
 pub(crate) fn measure<T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outline: &Outline,
     blur: f64,
     kept: &[bool],
@@ -55,7 +55,7 @@ pub(crate) fn measure<T: Sample>(
     let width = WIDTH * ((a * b).sqrt() + 6.0);
     let spacing = (width / 24.0).max(1.0);
     let mut spots: Vec<Spot> = Vec::with_capacity(2 * kept.len());
-    let mut sums = Sums::default();
+    let mut sums = BackgroundSums::default();
     let mut found: Option<(Vector3<f64>, f64)> = None;
     let mut outer = start;
     let mut step = 0;
@@ -68,7 +68,7 @@ pub(crate) fn measure<T: Sample>(
                 rims.spots(distance, &mut spots);
                 if step == 1 {
                     found = Some(robust_plane(&mut spots)?);
-                    sums = Sums::of(spots.iter().copied());
+                    sums = BackgroundSums::of(spots.iter().copied());
                 }
             }
             Some((coefficients, noise)) => {
@@ -77,7 +77,7 @@ pub(crate) fn measure<T: Sample>(
                     break;
                 }
                 let (mean, square) = next.residuals(coefficients);
-                let floor = noise.max(RING_NOISE);
+                let floor = noise.max(QUIET);
                 if square > (RING[0] * floor).powi(2) || mean.abs() > RING[1] * floor {
                     break;
                 }
@@ -107,7 +107,7 @@ pub(crate) fn measure<T: Sample>(
     })
 }
 
-/// What one ring of few rays shows of an outline.
+/// Test of an outline with one ring of few rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Glance {
     /// The most that it may differ from what lies around it: from the eighth of the rays that differs most, if the majority that fixes
@@ -117,8 +117,8 @@ pub(crate) struct Glance {
     pub joined: [f64; 2],
 }
 
-/// A glance around an outline. None when too little of it lies in the picture.
-pub(crate) fn glance<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, bright: bool) -> Option<Glance> {
+/// A glance around an outline. `None` if too little of it lies in the picture.
+pub(crate) fn glance<T: Sample>(plane: &SampleView<T>, outline: &Outline, blur: f64, bright: bool) -> Option<Glance> {
     const RAYS: usize = 24;
     let rims = Rims::of(plane, outline, &[true; RAYS]);
     let (mut levels, mut count) = ([f32::MAX; RAYS], 0);
@@ -142,11 +142,16 @@ pub(crate) fn glance<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, 
     Some(Glance { contrast, joined })
 }
 
-/// The ground of a disc in the gap of this width between its rim and what stands around it: its level, and how much of it, as a share
-/// of the contrast, the worst direction but two lacks. None when some of it lies outside of the picture.
+/// The background of a disc in the gap of this width between its rim and what stands around it: its level, and how much of it, as a share
+/// of the contrast, the worst direction but two lacks. `None` if some of it lies outside of the picture.
 ///
-/// Each direction shows its ground where it is most unlike the disc.
-pub(crate) fn in_gap<T: Sample>(plane: &Plane<T>, outline: &Outline, width: f64, bright: bool) -> Option<[f64; 2]> {
+/// Each direction shows its background where it is most unlike the disc.
+pub(crate) fn in_gap<T: Sample>(
+    plane: &SampleView<T>,
+    outline: &Outline,
+    width: f64,
+    bright: bool,
+) -> Option<[f64; 2]> {
     const RAYS: usize = 24;
     let rims = Rims::of(plane, outline, &[true; RAYS]);
     let mut grounds = [f32::MAX; RAYS];
@@ -172,7 +177,7 @@ pub(crate) fn in_gap<T: Sample>(plane: &Plane<T>, outline: &Outline, width: f64,
 
 /// Rim points and normals of the rays that count, four at a time, and how to read pixels there.
 struct Rims<'a, T> {
-    plane: &'a Plane<'a, T>,
+    plane: &'a SampleView<'a, T>,
     rays: Rays,
     /// Pixel of the outline's centre, and the centre's place in it.
     from: [i32; 2],
@@ -184,7 +189,7 @@ struct Rims<'a, T> {
 }
 
 impl<'a, T: Sample> Rims<'a, T> {
-    fn of(plane: &'a Plane<'a, T>, outline: &Outline, kept: &[bool]) -> Self {
+    fn of(plane: &'a SampleView<'a, T>, outline: &Outline, kept: &[bool]) -> Self {
         let whole = [outline.u.floor(), outline.v.floor()];
         let centre = [outline.u - whole[0], outline.v - whole[1]].map(|rest| f32x4::splat(rest as f32));
         let mut fours = Vec::with_capacity(kept.len() / 4 + 1);
@@ -224,7 +229,7 @@ impl<'a, T: Sample> Rims<'a, T> {
         }
     }
 
-    fn sums(&self, distance: f64) -> Sums {
+    fn sums(&self, distance: f64) -> BackgroundSums {
         let mut sums = [f32x4::ZERO; 10];
         for [x, y, g, one] in self.ring(distance) {
             let [x, y, g] = [x * one, y * one, g * one];
@@ -234,7 +239,7 @@ impl<'a, T: Sample> Rims<'a, T> {
         }
         let [n, x, y, xx, xy, yy, g, gx, gy, gg] =
             sums.map(|sum| sum.to_array().into_iter().map(f64::from).sum::<f64>());
-        Sums { n, x, y, xx, xy, yy, g, gx, gy, gg }
+        BackgroundSums { n, x, y, xx, xy, yy, g, gx, gy, gg }
     }
 
     /// Levels of pixels inside: the middle, and 16 directions at three distances from it.
@@ -260,7 +265,7 @@ fn residual(coefficients: &Vector3<f64>, [x, y, level]: &Spot) -> f64 {
 
 /// Sums of the normal equations of a plane: of 1, x, y, their products, and their products with the level g.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct BackgroundSums {
     n: f64,
     x: f64,
     y: f64,
@@ -273,7 +278,7 @@ struct Sums {
     gg: f64,
 }
 
-impl Sums {
+impl BackgroundSums {
     fn of(spots: impl Iterator<Item = Spot>) -> Self {
         let mut sums = Self::default();
         for [x, y, level] in spots {
@@ -339,7 +344,7 @@ impl Sums {
 }
 
 fn plane_through(spots: &[Spot]) -> Option<(Vector3<f64>, f64)> {
-    Sums::of(spots.iter().copied()).plane()
+    BackgroundSums::of(spots.iter().copied()).plane()
 }
 
 /// The same without outliers, which are removed from the spots: further than three robust sigmas from the plane.
@@ -369,7 +374,7 @@ mod tests {
 
     #[test]
     fn one_ring_shows_no_less_contrast_than_the_whole_surround() {
-        // discs of both polarities and a shape that goes on beyond the outline, on sloping ground with noise
+        // discs of both polarities and a shape that goes on beyond the outline, on sloping background with noise
         for (bright, disc, shown) in
             [(true, 90.0, true), (false, -70.0, true), (true, -70.0, false), (false, 90.0, false)]
         {
@@ -382,7 +387,7 @@ mod tests {
                         (100.0 + 0.2 * x - 0.1 * y + noise + if inside { disc } else { 0.0 }) as u8
                     })
                     .collect();
-                let plane = Plane::new(100, 100, &samples);
+                let plane = SampleView::new(100, 100, &samples);
                 let outline = Outline::from_axes(50.0, 50.0, 12.0, 12.0, 0.0);
                 let at_most = glance(&plane, &outline, 0.7, bright).unwrap().contrast;
                 let whole = measure(&plane, &outline, 0.7, &[true; 40], u32::MAX).unwrap().contrast;
@@ -408,7 +413,7 @@ mod tests {
                     })
                     .collect();
                 let outline = Outline::from_axes(50.0, 50.0, 12.0, 12.0, 0.0);
-                let joined = glance(&Plane::new(100, 100, &samples), &outline, 0.7, bright).unwrap().joined;
+                let joined = glance(&SampleView::new(100, 100, &samples), &outline, 0.7, bright).unwrap().joined;
                 assert_eq!(joined.map(|share| share > 0.9), [quarter, eighth], "{half} {joined:?}");
                 assert!(joined.iter().all(|share| *share > 0.9 || *share < 0.1), "{half} {joined:?}");
             }

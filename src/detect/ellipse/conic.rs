@@ -8,7 +8,7 @@
 
 use super::outline::Outline;
 
-/// Ellipse through five or more weighted points (x, y, weight); none when they determine no ellipse.
+/// Ellipse through five or more weighted points (x, y, weight); `None` if they determine no ellipse.
 pub(crate) fn fit(points: &[[f64; 3]]) -> Option<Outline> {
     let (mut weight, mut mx, mut my) = (0.0, 0.0, 0.0);
     for [x, y, w] in points {
@@ -68,7 +68,7 @@ impl Sums {
         }
     }
 
-    /// The ellipse of the points; none when they determine none.
+    /// The ellipse of the points; `None` if they determine none.
     pub fn ellipse(&self) -> Option<Outline> {
         let Self { weight, first, second, third, fourth } = *self;
         if !(weight > 0.0) {

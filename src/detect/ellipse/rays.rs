@@ -1,7 +1,7 @@
-//! Points of the rim one by one, and four at a time, a quarter turn apart.
+//! Points of the rim one by one, or four at a time, 90° apart.
 //!
-//! Most of the work on what turns out to be no target is walking along rays. In single precision, relative to the outline's
-//! centre, four of them cost about as much as one; at 400 pixels from there rounding is 3e-5 pixels.
+//! Most of the time for rejected blobs is spent along rays. In single precision, relative to the outline's centre, four rays cost about
+//! as much as one; rounding is 3e-5 pixels at a distance of 400 pixels.
 
 use wide::f32x4;
 
@@ -28,7 +28,7 @@ pub(crate) struct FourRims {
     pub ny: f32x4,
 }
 
-/// Walks around an outline.
+/// Computes four rim points of an outline at once.
 #[derive(Clone, Copy)]
 pub(crate) struct Rays {
     p: f32x4,
@@ -37,7 +37,7 @@ pub(crate) struct Rays {
 }
 
 impl Rays {
-    /// Of the outline's shape.
+    /// From the shape of an outline.
     pub fn new(outline: &Outline) -> Self {
         let [p, q, r] = [outline.p, outline.q, outline.r].map(|x| f32x4::splat(x as f32));
         Self { p, q, r }
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn they_are_the_rim_points_one_by_one() {
+    fn four_at_a_time_are_the_rim_points_one_by_one() {
         let outline = Outline::from_axes(0.0, 0.0, 12.0, 5.0, 0.6);
         let plain: Vec<_> = rim_points(&outline, 20).collect();
         for (k, [c, s]) in quarter(20).enumerate() {

@@ -1,21 +1,21 @@
 //! From an approximate outline to a confirmed target by its edges: a sequence of tests, cheap ones first.
 
-use super::{Found, Measure};
-use crate::detect::acceptance::levels::{CONTRAST, DISTURBED, FAINT, STROKE, UNEVEN, UNEXPLAINED};
-use crate::detect::acceptance::look::{MISSING, MISSING_WHOLE, OPEN_MEASURED};
+use super::{Measure, PreliminaryTarget};
+use crate::detect::acceptance::levels::{CONTRAST, DISTURBED, FAINT, STROKE, UNEVEN};
 use crate::detect::acceptance::outline as limits;
-use crate::detect::acceptance::size::{EDGES_LARGE, EDGES_SMALL, FIRST_FLAT, ROOM};
+use crate::detect::acceptance::quick_test::{MISSING, MISSING_WHOLE, OPEN_MEASURED};
+use crate::detect::acceptance::size::{EDGES_SMALL, ROOM};
 use crate::detect::edges::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
 use crate::detect::edges::edge::{self, Edges};
-use crate::detect::edges::look::{self, DotLevels};
+use crate::detect::edges::ellipse_fit::{self, EllipseFit, Start};
 use crate::detect::edges::quality;
+use crate::detect::edges::quick_test::{self, DotLevels};
 use crate::detect::edges::surround;
-use crate::detect::edges::through::{self, EllipseFit, Start};
 use crate::detect::ellipse::outline::Outline;
 use crate::detection::Reason;
 use crate::image::Sample;
 
-/// Rings of a first look at the surround.
+/// Rings of a first pass over the annulus.
 pub(in crate::detect) const NEARBY: u32 = 6;
 
 /// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
@@ -36,8 +36,8 @@ pub(in crate::detect) fn undisturbed(edges: &Edges, ellipse: &EllipseFit, blur: 
     let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
     let margin = ((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize;
     let mut all = good.clone();
-    let covered = (0..count).filter(|k| (0..limits::COVERED).all(|i| !good[(k + i) % count]));
-    let runs = covered.map(|k| (k, limits::COVERED)).chain((0..count).filter(is_gone).map(|k| (k, 1)));
+    let occluded = (0..count).filter(|k| (0..limits::OCCLUDED).all(|i| !good[(k + i) % count]));
+    let runs = occluded.map(|k| (k, limits::OCCLUDED)).chain((0..count).filter(is_gone).map(|k| (k, 1)));
     for (k, run) in runs {
         for i in 0..run + 2 * margin {
             all[(k + count + i - margin.min(count)) % count] = false;
@@ -63,8 +63,8 @@ fn is_ellipse(ellipse: &EllipseFit, focus: f64) -> Result<(), Reason> {
 }
 
 impl<T: Sample> Measure<'_, T> {
-    /// Edges, ellipse and surround of a target that has passed its first look, whose outline is known to a fraction of its size.
-    pub(in crate::detect) fn confirm(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
+    /// Edges, ellipse and annulus of a target that has passed its first look, whose outline is known to a fraction of its size.
+    pub(in crate::detect) fn confirm(&mut self, start: &Outline, bright: bool) -> Result<PreliminaryTarget, Reason> {
         let (ellipse, focus) = self.followed(start, bright)?;
         self.size_allows(&ellipse.outline)?;
         self.has_room(&ellipse.outline)?;
@@ -111,7 +111,7 @@ impl<T: Sample> Measure<'_, T> {
                 }
             }
             let from = if round == 0 { Start::Rough } else { Start::Near(NEAR) };
-            let found = through::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
+            let found = ellipse_fit::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
             self.follows(&found, b, focus, round == 0)?;
             if round == 0 {
@@ -140,15 +140,11 @@ impl<T: Sample> Measure<'_, T> {
         if found.occluded > limits::HIDDEN + limits::HIDDEN_FIRST {
             return Err(Reason::Occluded);
         }
-        let (a, b) = found.outline.semi_axes();
-        if b < FIRST_FLAT * self.options.min_axis_ratio * a {
-            return Err(Reason::TooFlat);
-        }
         if !quality::size_may_allow(found) {
             return Err(Reason::NotAnEllipse);
         }
         let missing = if found.gap <= limits::SMALL_GAP { MISSING_WHOLE } else { MISSING };
-        look::stands_out(&self.plane, &self.levels, &found.outline, bright, missing, OPEN_MEASURED)
+        quick_test::stands_out(&self.plane, &self.levels, &found.outline, bright, missing, OPEN_MEASURED)
     }
 
     /// Gate: it is as round and as large as it is asked to be.
@@ -160,7 +156,7 @@ impl<T: Sample> Measure<'_, T> {
         if 2.0 * b < EDGES_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
-        if 2.0 * a > EDGES_LARGE * self.options.max_diameter {
+        if 2.0 * a > self.options.max_diameter {
             return Err(Reason::TooLarge);
         }
         Ok(())
@@ -177,7 +173,7 @@ impl<T: Sample> Measure<'_, T> {
     }
 
     /// The ellipse with what lies around it and its blur.
-    fn surrounded(&mut self, ellipse: EllipseFit, bright: bool, focus: f64) -> Result<Found, Reason> {
+    fn surrounded(&mut self, ellipse: EllipseFit, bright: bool, focus: f64) -> Result<PreliminaryTarget, Reason> {
         let outline = ellipse.outline;
         let kept = undisturbed(&self.edges, &ellipse, blur::rough(focus));
         let strength = self.strength();
@@ -185,13 +181,13 @@ impl<T: Sample> Measure<'_, T> {
         let rough = around(blur::rough(focus))?;
         let blur = blur::of(strength, rough.contrast.abs());
         let surround = if blur > BLURRED { around(blur)? } else { rough };
-        let mut found = Found { ellipse, surround, kept, blur, strength, bright, refined: false };
+        let mut found = PreliminaryTarget { ellipse, surround, kept, blur, strength, bright, refined: false };
         found.blur = blur::of(strength, found.signed());
         Ok(found)
     }
 
     /// Gate: contrast stands out of the noise, with pixels enough to show a shape.
-    fn has_contrast(&self, found: &Found) -> Result<(), Reason> {
+    fn has_contrast(&self, found: &PreliminaryTarget) -> Result<(), Reason> {
         let noise = found.surround.noise.min(DISTURBED[0] * self.levels.noise + DISTURBED[1]);
         let enough = found.signed() >= (CONTRAST * noise).max(self.levels.step());
         if enough && quality::has_shape(&found.ellipse, self.noise(&found.surround), found.signed()) {
@@ -202,31 +198,31 @@ impl<T: Sample> Measure<'_, T> {
     }
 
     /// Whether the edges scatter no more than those of a target of this noise and blur, and no more than `largest`.
-    fn is_good(&self, found: &Found, largest: f64) -> bool {
+    fn is_good(&self, found: &PreliminaryTarget, largest: f64) -> bool {
         let (noise, spread) = (self.noise(&found.surround), found.spread(found.blur));
         found.ellipse.rms <= largest
             && quality::outline_allows(&found.ellipse, &self.levels, noise, found.signed(), spread)
     }
 
     /// Edges as fitted profiles, and the ellipse through them.
-    fn refine(&mut self, found: &mut Found) -> Result<(), Reason> {
+    fn refine(&mut self, found: &mut PreliminaryTarget) -> Result<(), Reason> {
         let outline = found.ellipse.outline;
         let (count, profile) = (self.edges.len(), blur::profile(&outline, &found.surround, found.strength, found.blur));
         edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
-        found.ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
+        found.ellipse = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
         found.kept = undisturbed(&self.edges, &found.ellipse, found.blur);
         found.refined = true;
         is_seen(&found.ellipse)
     }
 
     /// Gate: no stroke of its level around a faint one, and what is missing of the outline has something in front of it.
-    fn is_no_letter(&self, found: &Found) -> Result<(), Reason> {
-        let Found { ellipse, surround, kept, .. } = found;
+    fn is_no_letter(&self, found: &PreliminaryTarget) -> Result<(), Reason> {
+        let PreliminaryTarget { ellipse, surround, kept, .. } = found;
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
         let faint = found.signed() < FAINT * self.noise(surround);
-        if faint && look::stroke(&self.plane, &ellipse.outline, levels) > STROKE
-            || ellipse.occluded > UNEXPLAINED
-                && look::unexplained(&self.plane, &ellipse.outline, kept, levels) > UNEXPLAINED
+        if faint && quick_test::stroke(&self.plane, &ellipse.outline, levels) > STROKE
+            || ellipse.occluded > UNEVEN
+                && quick_test::unexplained(&self.plane, &ellipse.outline, kept, levels) > UNEVEN
         {
             return Err(Reason::NotAnEllipse);
         }

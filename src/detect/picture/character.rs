@@ -1,19 +1,19 @@
 //! In-camera processing, estimated from the rows of a picture: sharpened edges, saturated samples, JPEG blocks, noise
 //! autocorrelation. It decides whether a picture is searched as a laboratory's or softened as well.
 
-use super::noise::Levels;
+use super::noise::GreyStatistics;
 use crate::detect::acceptance::picture as limits;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
-/// Rows that are looked at.
+/// Rows that are examined.
 const ROWS: usize = 96;
-/// Distance at which noise no longer knows of its neighbours.
+/// Distance beyond which noise is not correlated.
 pub(crate) const APART: usize = 5;
 
-/// What was seen.
+/// Observed values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Character {
-    /// Median undershoot on that side of steps, dark or bright, that has more of it, as a share of them; 0 where there are too few.
+    /// Median undershoot on that side of steps, dark or bright, that has more of it, as a share of them; 0 if there are too few.
     pub undershoot: f64,
     /// Share of samples at the dark and at the bright end of the scale.
     pub clipped: [f64; 2],
@@ -24,7 +24,7 @@ pub(crate) struct Character {
 }
 
 impl Character {
-    pub fn of<T: Sample>(plane: &Plane<T>, levels: &Levels) -> Self {
+    pub fn of<T: Sample>(plane: &SampleView<T>, levels: &GreyStatistics) -> Self {
         let step = (plane.height / ROWS).max(1);
         let rows = || (step / 2..plane.height).step_by(step).map(|y| plane.row(y));
         let (mut dark, mut bright, mut all) = (0, 0, 0);
@@ -44,7 +44,7 @@ impl Character {
             undershoots_of(row, levels, &mut undershoots);
         }
         // A tone curve after the sharpening flattens what it did to the bright side of a step, and steepens the dark one: each
-        // side speaks for itself, and both together where there are few of each.
+        // side is used alone, and both together if each has few samples.
         let both = undershoots.concat();
         let median = |mut found: Vec<f64>| {
             found.sort_by(f64::total_cmp);
@@ -61,8 +61,8 @@ impl Character {
         }
     }
 
-    /// Whether it is no picture of a laboratory.
-    pub fn is_processed(&self, levels: &Levels) -> bool {
+    /// Whether it was processed by a camera.
+    pub fn is_processed(&self, levels: &GreyStatistics) -> bool {
         let hidden = self.noise > limits::NOISY || self.undershoot > limits::SHARPENED || self.is_clipped();
         !levels.stairs && (self.is_compressed() || hidden)
     }
@@ -72,7 +72,7 @@ impl Character {
         self.clipped[1] > limits::OVEREXPOSED
     }
 
-    /// Whether a compression has passed over it, and neighbouring samples share their noise.
+    /// Whether a compression has skipped it, and neighbouring samples share their noise.
     pub fn is_compressed(&self) -> bool {
         self.blocks > limits::COMPRESSED
     }
@@ -104,7 +104,7 @@ fn blocks(differences: &[f64]) -> f64 {
 }
 
 /// Undershoots on the flat sides of a row's steps, dark ones and bright ones, as shares of the steps, less what noise does.
-fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut [Vec<f64>; 2]) {
+fn undershoots_of<T: Sample>(row: &[T], levels: &GreyStatistics, found: &mut [Vec<f64>; 2]) {
     const FAR: usize = 8;
     const NEAR: usize = 5;
     let level = |x: usize| f64::from(row[x].level());
@@ -162,7 +162,7 @@ mod tests {
             (130.0 + 60.0 * (d / 1.2).tanh() + overshoot).round() as u8
         };
         let samples: Vec<u8> = (0..300 * 40).map(|i| level(i % 300)).collect();
-        let plane = Plane::new(300, 40, &samples);
+        let plane = SampleView::new(300, 40, &samples);
         Character::of(&plane, &noise::levels(&plane))
     }
 

@@ -4,10 +4,10 @@
 //! sample is off. A drawing, or a scan cut at one threshold, has areas and lines, and single samples only where noise crosses the threshold.
 
 use crate::detect::acceptance::picture::{DOTS, DOTTED};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Whether a picture is such a one. Ends at the third level that it meets, which in any other picture is soon.
-pub(crate) fn is_dithered<T: Sample>(plane: &Plane<T>) -> bool {
+pub(crate) fn is_dithered<T: Sample>(plane: &SampleView<T>) -> bool {
     let mut samples = (0..plane.height).flat_map(|y| plane.row(y)).map(|sample| sample.level());
     let Some(first) = samples.next() else { return false };
     let mut second = None;
@@ -42,7 +42,7 @@ mod tests {
         let picture = |level: &dyn Fn(usize, usize) -> bool| -> Vec<u8> {
             (0..SIZE * SIZE).map(|i| if level(i % SIZE, i / SIZE) { 255 } else { 0 }).collect()
         };
-        let dithered = |samples: &[u8]| is_dithered(&Plane::new(SIZE, SIZE, samples));
+        let dithered = |samples: &[u8]| is_dithered(&SampleView::new(SIZE, SIZE, samples));
         let disc = |x: usize, y: usize| (x as f64 - 48.2).hypot(y as f64 - 47.7) < 20.0;
         let screen = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
         let of_grey = |grey: usize| picture(&move |x, y| disc(x, y) && screen[y % 4][x % 4] < grey);

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use wide::f32x4;
 
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// How many samples a Gaussian mean takes on each side.
 pub(crate) fn side(sigma: f64) -> usize {
@@ -44,7 +44,7 @@ impl Levels {
     }
 
     /// The rows of a picture instead of its own.
-    pub fn take<T: Sample>(&mut self, plane: &Plane<T>, rows: Range<usize>) {
+    pub fn take<T: Sample>(&mut self, plane: &SampleView<T>, rows: Range<usize>) {
         self.levels.resize(rows.len() * self.stride, 0.0);
         for (levels, y) in self.rows_mut().zip(rows) {
             for (level, sample) in levels.iter_mut().zip(plane.row(y)) {

@@ -1,9 +1,9 @@
 //! Noise and grey level range of a whole picture, for the threshold of the search.
 
 use crate::detect::acceptance::picture as limits;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
-/// Rows that are looked at, spread over the picture.
+/// Rows that are examined, spread over the picture.
 const ROWS: usize = 48;
 /// Golden section: the rows for the range lie at its multiples in their strips. At even distances all of them might pass between
 /// the targets of a regular field.
@@ -11,14 +11,14 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Statistics of a picture in grey levels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Levels {
+pub(crate) struct GreyStatistics {
     /// Standard deviation of the noise.
     pub noise: f64,
     /// From the 0.1 % to the 99.9 % quantile.
     pub range: f64,
     /// Level from which samples count as saturated.
     pub saturation: f64,
-    /// Whether it is a drawing of few grey levels, whose edges are the stairs of its pixels.
+    /// Whether it is a drawing of few grey levels, whose edges are aliased.
     pub stairs: bool,
     /// Distance of two levels: more than one where the scale has few, as the sixteen of a scanner.
     pub quantum: f64,
@@ -26,14 +26,14 @@ pub(crate) struct Levels {
     pub developed: bool,
 }
 
-impl Levels {
+impl GreyStatistics {
     /// Smallest step of an edge that counts.
     pub fn step(&self) -> f64 {
         let [noise, range, levels] = limits::EDGE;
         (noise * self.noise).max(range * self.range).max(levels)
     }
 
-    /// Standard deviation of an edge for its stairs: a whole pixel's, evenly spread.
+    /// Standard deviation of an aliased edge: that of a uniform distribution over one pixel.
     pub fn jag(&self) -> f64 {
         if self.stairs { 12f64.sqrt().recip() } else { 0.0 }
     }
@@ -41,12 +41,12 @@ impl Levels {
 
 /// Noise from second differences along rows: |g(x-1) - 2 g(x) + g(x+1)| has the median 0.6745 sqrt(6) sigma where the
 /// picture is plane, and edges are too few to move a median. Quantiles of integers are interpolated inside their bin.
-pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {
+pub(crate) fn levels<T: Sample>(plane: &SampleView<T>) -> GreyStatistics {
     levels_at(plane, 1)
 }
 
 /// The same with second differences over `apart` pixels, for noise of which neighbours know.
-pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
+pub(crate) fn levels_at<T: Sample>(plane: &SampleView<T>, apart: usize) -> GreyStatistics {
     let bins = T::MAX as usize + 1;
     let (mut values, mut differences) = (vec![0u32; bins], vec![0u32; bins]);
     let step = (plane.height / ROWS).max(1);
@@ -55,7 +55,7 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
         row.windows(3).step_by(2).for_each(|triple| values[triple[1].level() as usize] += 1);
     }
     let end = saturation(&values) as u32;
-    // what is clipped has lost its noise
+    // what is saturated has lost its noise
     let clipped = |level: u32| level == 0 || level >= end;
     let mut whole = vec![0u32; bins];
     for y in (step / 2..plane.height).step_by(step) {
@@ -66,7 +66,7 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
             whole[difference] += u32::from(!levels.into_iter().any(clipped));
         }
     }
-    // where most is clipped, the rest has many edges: the least quarter tells of the noise. Of a drawing nothing may be left
+    // where most is saturated, the rest has many edges: the least quarter tells of the noise. Of a drawing nothing may be left
     let count = |of: &[u32]| of.iter().map(|n| u64::from(*n)).sum::<u64>();
     let mostly_clipped = apart == 1 && 2 * count(&whole) < count(&differences) && count(&whole) > limits::ENOUGH;
     let (differences, share, normal) = if mostly_clipped { (whole, 0.25, 0.3186) } else { (differences, 0.5, 0.6745) };
@@ -75,9 +75,9 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     let occupied: Vec<usize> = (0..bins).filter(|level| values[*level] > 0).collect();
     let stairs = noise < limits::DRAWN && occupied.len() <= limits::FEW;
     let quantum = if occupied.len() > limits::FEW { quantum(&occupied) } else { 1 } as f64;
-    // nothing is clipped where there is nothing between the levels
+    // nothing is saturated where there is nothing between the levels
     let saturation = if stairs { bins as f64 } else { f64::from(end) };
-    Levels { noise, range: range.max(0.0), saturation, stairs, quantum, developed: false }
+    GreyStatistics { noise, range: range.max(0.0), saturation, stairs, quantum, developed: false }
 }
 
 /// Distance of the levels of a scale that has few, by those of it that occur: all lie on it but for rounding. One where they are chance.
@@ -161,7 +161,7 @@ mod tests {
     fn noise_is_measured_on_a_slope() {
         for sigma in [1.0, 2.0, 6.0] {
             let samples = noisy(sigma);
-            let found = levels(&Plane::new(200, 200, &samples)).noise;
+            let found = levels(&SampleView::new(200, 200, &samples)).noise;
             assert!((found / sigma - 1.0).abs() < 0.1, "{sigma}: {found}");
         }
     }
@@ -171,7 +171,7 @@ mod tests {
         for period in [12, 24, 32, 48, 96] {
             let samples: Vec<u8> =
                 (0..64 * 1152).map(|k| if k / 64 % period < period / 4 { 200 } else { 20 }).collect();
-            let found = levels(&Plane::new(64, 1152, &samples)).range;
+            let found = levels(&SampleView::new(64, 1152, &samples)).range;
             assert!(found > 170.0, "{period}: {found}");
         }
     }
@@ -179,31 +179,31 @@ mod tests {
     #[test]
     fn a_pile_at_the_top_is_saturation() {
         let mut samples = noisy(2.0);
-        assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 255.0);
+        assert_eq!(levels(&SampleView::new(200, 200, &samples)).saturation, 255.0);
         for sample in &mut samples {
             *sample = (*sample).min(80);
         }
-        assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 80.0);
+        assert_eq!(levels(&SampleView::new(200, 200, &samples)).saturation, 80.0);
     }
 
     #[test]
     fn twelve_bits_in_sixteen_are_clipped_at_their_own_end() {
         let spread = |top: u16| noisy(2.0).into_iter().map(|level| (u16::from(level) * 16).min(top) * 16).collect();
         let clipped: Vec<u16> = spread(80 * 16);
-        assert_eq!(levels(&Plane::new(200, 200, &clipped)).saturation, f64::from(80u16 * 256));
+        assert_eq!(levels(&SampleView::new(200, 200, &clipped)).saturation, f64::from(80u16 * 256));
         let whole: Vec<u16> = spread(4095);
-        assert_eq!(levels(&Plane::new(200, 200, &whole)).saturation, 65535.0);
+        assert_eq!(levels(&SampleView::new(200, 200, &whole)).saturation, 65535.0);
     }
 
     #[test]
     fn an_even_level_of_a_drawing_is_no_saturation() {
         let samples: Vec<u8> = (0..200 * 200).map(|k| if k % 200 < 100 { 40 } else { 220 }).collect();
-        assert!(levels(&Plane::new(200, 200, &samples)).saturation > 220.0);
+        assert!(levels(&SampleView::new(200, 200, &samples)).saturation > 220.0);
     }
 
     #[test]
     fn tiny_pictures_have_levels_too() {
-        let found = levels(&Plane::new(1, 1, &[9u8]));
+        let found = levels(&SampleView::new(1, 1, &[9u8]));
         assert_eq!((found.noise, found.range), (0.0, 0.0));
     }
 }

@@ -3,7 +3,7 @@
 //! An edge of blur σ that an unsharp mask of amount k and radius ρ has passed is
 //! B + C (Φ(-d/σ) + k (Φ(-d/σ) - Φ(-d/√(σ² + ρ²)))), d the distance from the rim: linear in B, C and C k. Those are found by
 //! least squares for every σ and ρ of a table; the smallest residual decides. Samples at the end of the scale say only that the
-//! light was beyond it, and take no part.
+//! light was beyond it, and are not used.
 
 use nalgebra::{Matrix3, Vector3};
 use statrs::function::erf::erf;
@@ -11,7 +11,7 @@ use statrs::function::erf::erf;
 use crate::detect::acceptance::picture as limits;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::rim_points;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// An unsharp mask.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,26 +24,28 @@ pub(crate) struct Sharpening {
 
 /// Pixels to both sides of the rim.
 const REACH: f64 = 7.0;
+/// Rims that are enough: more change the mean profile by less than what is modelled of it.
+const RIMS: usize = 120;
 /// Samples of a pixel.
 const FINE: f64 = 4.0;
 
 const BINS: usize = (2.0 * REACH * FINE) as usize + 1;
 
 /// Mean profile across rims, normalised to the contrast.
-struct Profile {
+struct RimProfile {
     sums: [[f64; 3]; BINS],
     rims: usize,
 }
 
-/// The sharpening that the rims of these outlines show; none where they show none, or are too few.
+/// The sharpening that the rims of these outlines show; `None` if they show none, or are too few.
 pub(crate) fn of_rims<'a, T: Sample>(
-    plane: &Plane<T>,
+    plane: &SampleView<T>,
     outlines: impl Iterator<Item = &'a Outline>,
     saturation: f64,
 ) -> Option<Sharpening> {
-    let mut profile = Profile { sums: [[0.0; 3]; BINS], rims: 0 };
+    let mut profile = RimProfile { sums: [[0.0; 3]; BINS], rims: 0 };
     for outline in outlines.filter(|outline| outline.semi_axes().1 >= limits::RIM) {
-        if profile.rims == limits::RIMS {
+        if profile.rims == RIMS {
             break;
         }
         profile.add(plane, outline, saturation);
@@ -51,8 +53,8 @@ pub(crate) fn of_rims<'a, T: Sample>(
     (profile.rims >= 3).then(|| profile.fit()).flatten()
 }
 
-impl Profile {
-    fn add<T: Sample>(&mut self, plane: &Plane<T>, outline: &Outline, saturation: f64) {
+impl RimProfile {
+    fn add<T: Sample>(&mut self, plane: &SampleView<T>, outline: &Outline, saturation: f64) {
         let b = outline.semi_axes().1;
         let inner = (0.8 * b).min(REACH);
         let level = |x: f64, y: f64| f64::from(plane.nearest(x, y));
@@ -70,7 +72,7 @@ impl Profile {
         };
         let (Some(ground), Some(inside)) = (along(0.9 * REACH), along(-inner)) else { return };
         let contrast = inside - ground;
-        if contrast.abs() < limits::RIM_CONTRAST {
+        if contrast == 0.0 {
             return;
         }
         for rim in &rims {

@@ -10,12 +10,12 @@ use wide::f32x4;
 
 use super::mean::{LANES, Levels, kernel, side};
 use super::sharpening::Sharpening;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// What a grey level of 8 bits becomes: the fractions that a mean has are kept.
 const FINE: f64 = 128.0;
 
-/// Most that is left of a picture's contrast at any frequency where its sharpening is undone: with two means at k = 1, three at 2.
+/// Maximum amplification at any frequency when a sharpening is undone: with two means at k = 1, three at 2.
 const LEFT: f64 = 0.0115;
 
 /// Rows of a strip, in those that are read beyond it on each side: a third of all is read twice.
@@ -35,12 +35,12 @@ impl Softened {
     ///
     /// Strip by strip: in fractions a large picture would take several times its own memory. A strip reads as many rows beyond its own
     /// as the means reach, so that every sample is that of the picture taken whole.
-    pub fn of<T: Sample>(plane: &Plane<T>, sharpening: Option<Sharpening>, sigma: f64) -> Self {
+    pub fn of<T: Sample>(plane: &SampleView<T>, sharpening: Option<Sharpening>, sigma: f64) -> Self {
         let reach = reach(sharpening, sigma);
         Self::in_strips(plane, sharpening, sigma, (STRIP * reach).max(1))
     }
 
-    fn in_strips<T: Sample>(plane: &Plane<T>, sharpening: Option<Sharpening>, sigma: f64, rows: usize) -> Self {
+    fn in_strips<T: Sample>(plane: &SampleView<T>, sharpening: Option<Sharpening>, sigma: f64, rows: usize) -> Self {
         let (width, height) = (plane.width, plane.height);
         let reach = reach(sharpening, sigma);
         let scale = if T::MAX < 256 { FINE } else { 1.0 };
@@ -80,8 +80,8 @@ impl Softened {
     }
 
     /// Its samples.
-    pub fn plane(&self) -> Plane<'_, u16> {
-        Plane::new(self.width, self.height, &self.samples)
+    pub fn plane(&self) -> SampleView<'_, u16> {
+        SampleView::new(self.width, self.height, &self.samples)
     }
 }
 
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn strips_are_the_picture_taken_whole() {
         let noise: Vec<u8> = (0..37u32 * 90).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
-        let plane = Plane::new(37, 90, &noise);
+        let plane = SampleView::new(37, 90, &noise);
         for sharpening in [None, Some(Sharpening { amount: 1.2, radius: 0.5 })] {
             let whole = Softened::in_strips(&plane, sharpening, 0.7, 90);
             for rows in [1, 16, 41] {
@@ -160,7 +160,7 @@ mod tests {
         let mean: Vec<f32> = (0..60 * 60).map(|i| (-side..=side).map(|t| weighted(i, t)).sum()).collect();
         let sharp: Vec<u8> = soft.iter().zip(&mean).map(|(s, m)| (s + 1.5 * (s - m)).round() as u8).collect();
         assert!(sharp.iter().zip(&soft).any(|(a, b)| (f32::from(*a) - b).abs() > 5.0));
-        let undone = Softened::of(&Plane::new(60, 60, &sharp), Some(Sharpening { amount: 1.5, radius: 1.1 }), 0.0);
+        let undone = Softened::of(&SampleView::new(60, 60, &sharp), Some(Sharpening { amount: 1.5, radius: 1.1 }), 0.0);
         let worst =
             undone.samples.iter().zip(&soft).map(|(a, b)| (f32::from(*a) / 128.0 - b).abs()).fold(0.0, f32::max);
         assert!(worst < 1.0, "{worst}");

@@ -14,18 +14,18 @@ use crate::detect::edges::surround::Surround;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
 use crate::detect::rendered::{DERIVATIVES, Field, Span};
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Unknowns of the fit: u, v, p, q, r, s, C, B, and the slope of the light, gx and gy.
 pub(crate) const UNKNOWNS: usize = 10;
-pub(crate) type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
+pub(crate) type NormalMatrix = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
 
 /// Columns that are multiplied with as many others at a time: nine sums stay in the processor's registers.
 const BLOCK: usize = 3;
 
-/// Which pixels are used.
-pub(crate) struct Region<'a> {
+/// Region of the pixels that are fitted.
+pub(crate) struct PixelRegion<'a> {
     pub outline: Outline,
     /// Half the width of the band, in pixels.
     pub half_band: f64,
@@ -35,15 +35,15 @@ pub(crate) struct Region<'a> {
     pub light: [f64; 2],
     /// Whether it multiplies the levels ([`lit`](super::lit)).
     pub multiplies: bool,
-    /// One for each ray of the outline: false where the rim is hidden.
+    /// One for each ray of the outline: false if the rim is occluded.
     pub kept: &'a [bool],
     /// Whether all of them are true.
     pub whole: bool,
-    /// What runs across, where they show that.
+    /// The strip across it, if the edges show one.
     pub strip: Option<Strip>,
-    /// Grey level from which a sample says nothing.
+    /// Grey level from which a sample counts as saturated.
     pub saturation: f64,
-    /// Whether edges are the stairs of the pixels.
+    /// Whether the edges are aliased.
     pub stairs: bool,
     /// Distance of two grey levels.
     pub quantum: f64,
@@ -51,7 +51,7 @@ pub(crate) struct Region<'a> {
     pub developed: bool,
     /// How far the rim departs from an ellipse, rms in pixels.
     pub shape: f64,
-    /// What is known of blur and contrast, if anything.
+    /// Prior values of blur and contrast, if any.
     pub prior: Option<Prior>,
 }
 
@@ -80,7 +80,7 @@ impl Prior {
         rms > self.largest_rms || rms > constant + part * shown
     }
 
-    pub fn add_normal(&self, normal: &mut Normal) {
+    pub fn add_normal(&self, normal: &mut NormalMatrix) {
         let [blur, contrast] = self.weights();
         normal[(5, 5)] += blur;
         normal[(6, 6)] += contrast;
@@ -112,8 +112,8 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    /// Chooses the pixels around the region's outline. None when they are too few for ten unknowns.
-    pub fn collect<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> Option<Flats> {
+    /// Chooses the pixels around the region's outline. `None` if they are too few for ten unknowns.
+    pub fn collect<T: Sample>(&mut self, plane: &SampleView<T>, field: &Field, region: &PixelRegion) -> Option<Flats> {
         self.spans.clear();
         let outline = &region.outline;
         let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
@@ -172,7 +172,7 @@ impl Band {
     }
 
     /// Levels and places of the pixels of all spans, in columns padded to eights; how many pixels there are.
-    fn fill<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> usize {
+    fn fill<T: Sample>(&mut self, plane: &SampleView<T>, field: &Field, region: &PixelRegion) -> usize {
         let count: usize = self.spans.iter().map(|span| span.2).sum();
         let Self { spans, grey, x, y, kept, .. } = self;
         for column in [&mut *grey, x, y, kept] {
@@ -298,7 +298,7 @@ impl Band {
         dropped
     }
 
-    /// Median of the absolute residuals of the pixels that count, as a standard deviation; 0 where it does not exceed `least`,
+    /// Median of the absolute residuals of the pixels that count, as a standard deviation; 0 if it does not exceed `least`,
     /// which a count shows sooner.
     pub fn robust_deviation(&mut self, least: f64) -> f64 {
         const PER_SIZE: f64 = 1.4826;
@@ -355,7 +355,7 @@ impl Band {
 
     /// How the squares of the residuals go with the share of the disc, and the light's part in the centre.
     #[inline(never)]
-    pub fn lights<const RIM: bool>(&self, cofactors: &Normal, contrast: f64) -> Lights {
+    pub fn lights<const RIM: bool>(&self, cofactors: &NormalMatrix, contrast: f64) -> Lights {
         let columns = self.columns().map(|column| column.as_chunks::<8>().0);
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
         let factor = |i: usize, j: usize| f32x8::splat((cofactors[(i, j)] * scale(i) * scale(j)) as f32);
@@ -405,10 +405,10 @@ impl Band {
     }
 
     /// J'J of the band. Derivatives of the outline are scaled by the contrast.
-    pub fn normal(&self, contrast: f64) -> Normal {
+    pub fn normal(&self, contrast: f64) -> NormalMatrix {
         let columns = self.columns();
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
-        let mut normal = Normal::zeros();
+        let mut normal = NormalMatrix::zeros();
         let mut enter = |i: usize, j: usize, sum: f64| {
             let sum = sum * scale(i) * scale(j);
             (normal[(i, j)], normal[(j, i)]) = (sum, sum);
@@ -443,8 +443,8 @@ impl Band {
     }
 }
 
-impl Region<'_> {
-    /// Whether the pixel lies where the rim is not hidden.
+impl PixelRegion<'_> {
+    /// Whether the pixel lies where the rim is not occluded.
     pub fn counts(&self, x: usize, y: usize) -> bool {
         if self.whole {
             return true;

@@ -4,43 +4,43 @@
 //! blurred ellipse ([`rendered`](super::rendered)) and h the slope of the light ([`lit`](super::lit)): ten unknowns, weights equal. No pixel
 //! is lost and none is interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
 //!
-//! Light that blur carries from what stands around onto those pixels pulls the centre; in the end it is taken back to first order
+//! Light that blur carries from neighbouring objects onto those pixels biases the centre; it is corrected to first order
 //! ([`neighbours`](super::neighbours)), δ = N⁻¹ J'l, and δ δ' is added to the covariance.
 //!
 //! Only the band of pixels that the rim's blur reaches depends on the outline ([`band`](super::band)). The design matrix
 //! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
 //! same, as the residuals are always exact.
 
-use super::band::{Band, Normal, Prior, Region, Unknowns};
-use super::colour::Colour;
+use super::band::{Band, NormalMatrix, PixelRegion, Prior, Unknowns};
 use super::flats::Flats;
 use super::lit::Lit;
 use super::neighbours::Neighbours;
+use super::noise_autocorrelation::NoiseProducts;
 use super::scatter;
-use crate::detect::acceptance::fit as limits;
+use crate::detect::acceptance::{fit as limits, levels::QUIET};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
 use crate::detect::rendered::Field;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Corrections below this share of the blur (and of the pixel) leave the design matrix as it is.
 const NEAR: f64 = 0.12;
-/// Corrections that shrink less than to this share renew it: where most of the profile is clipped, contrast and blur nearly
-/// stand for each other.
+/// Corrections that shrink less than to this share renew it: where most of the profile is saturated, contrast and blur nearly
+/// cannot be separated.
 const SLOW: f64 = 0.35;
-/// Corrections of what is clipped that do not shrink to this share are made by so much less, and by no less than the last share.
+/// Corrections of what is saturated that do not shrink to this share are made by so much less, and by no less than the last share.
 const STUCK: f64 = 0.8;
 const HALTING: f64 = 0.7;
 const LEAST_SHARE: f64 = 0.2;
 /// Rounds at most: as a rule; of a fit with known blur and contrast, whose disc its blur has nearly swallowed; and of one that is
-/// clipped, which has a longer way to its contrast.
+/// saturated, which has a longer way to its contrast.
 const ROUNDS: [u32; 3] = [12, 24, 40];
-/// Least blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
+/// Minimum blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
 /// centre comes out within about one percent.
 const SHARPEST: f64 = 0.4;
 const GENTLE: f64 = 6.0;
 
-/// What the fit gives.
+/// Result of the fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     pub outline: Outline,
@@ -56,8 +56,8 @@ pub(crate) struct Fit {
     pub disturbed: f64,
     /// Covariance of the centre: uu, uv, vv.
     pub covariance: [f64; 3],
-    /// What neighbouring pixels share, where that is wanted.
-    pub colour: Option<Colour>,
+    /// Noise autocorrelation, if requested.
+    pub colour: Option<NoiseProducts>,
 }
 
 /// Memory that is reused from target to target.
@@ -76,17 +76,17 @@ pub(crate) struct Workspace {
 }
 
 /// Outline, blur and levels of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
-/// enough to choose the pixels of the next one: corrections below `converged` pixels are expected. None when the steps lead
+/// enough to choose the pixels of the next one: corrections below `converged` pixels are expected. `None` if the steps lead
 /// nowhere.
 pub(crate) fn approach<T: Sample>(
-    plane: &Plane<T>,
-    region: &Region,
+    plane: &SampleView<T>,
+    region: &PixelRegion,
     blur: f64,
     converged: f64,
     work: &mut Workspace,
 ) -> Option<(Outline, f64, Lit)> {
     let (mut state, flats) = work.begin(plane, region, blur)?;
-    let (mut normal, mut anew, mut last) = (Normal::zeros(), true, state.first());
+    let (mut normal, mut anew, mut last) = (NormalMatrix::zeros(), true, state.first());
     for round in 0.. {
         state.may_go_on(round)?;
         if !work.field.holds(&state.outline, state.blur) {
@@ -120,17 +120,17 @@ pub(crate) fn approach<T: Sample>(
 }
 
 /// Fits the rendered ellipse, started at the region's outline with the given blur, until corrections below `converged`
-/// pixels are expected; none when that does not happen.
+/// pixels are expected; `None` if that does not happen.
 pub(crate) fn fit<T: Sample>(
-    plane: &Plane<T>,
-    region: &Region,
+    plane: &SampleView<T>,
+    region: &PixelRegion,
     blur: f64,
     converged: f64,
     work: &mut Workspace,
 ) -> Option<Fit> {
     work.hopeless = false;
     let (mut state, flats) = work.begin(plane, region, blur)?;
-    let mut normal = Normal::zeros();
+    let mut normal = NormalMatrix::zeros();
     let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
     let (mut anew, mut last) = (true, state.first());
     let (mut limit, mut rounds) = (f64::INFINITY, 0);
@@ -190,7 +190,7 @@ pub(crate) fn fit<T: Sample>(
     let (rms, uneven) = (variance.sqrt(), work.band.unevenness());
     let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
     let beyond = variance > limits::UNEXPLAINED * noise;
-    // What a camera does to edges it does on either side alike, which moves no centre. Where the scale ends, along stairs and at drawn
+    // What a camera does to edges it does on either side alike, which moves no centre. Where the scale ends, along aliased edges and at drawn
     // edges, which no lens has softened, it depends on where the pixels lie.
     let all_around = region.whole && region.developed && (work.coloured || beyond);
     let values = if all_around { work.band.take_profile(&state.outline, work.origin) } else { 0 };
@@ -248,10 +248,15 @@ pub(crate) fn fit<T: Sample>(
 
 impl Workspace {
     /// Chooses the pixels and the first values.
-    fn begin<T: Sample>(&mut self, plane: &Plane<T>, region: &Region, blur: f64) -> Option<(State, Flats)> {
+    fn begin<T: Sample>(
+        &mut self,
+        plane: &SampleView<T>,
+        region: &PixelRegion,
+        blur: f64,
+    ) -> Option<(FitState, Flats)> {
         let surround = region.surround;
         let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
-        let state = State {
+        let state = FitState {
             shown,
             brightest: (limits::OVEREXPOSED * shown).max(surround.contrast.abs()),
             outline: region.outline,
@@ -266,8 +271,8 @@ impl Workspace {
         Some((state, self.band.collect(plane, &self.field, region)?))
     }
 
-    /// Renders the model at the state and takes it off the pixels; none where it leaves the field.
-    fn residuals(&mut self, state: &State, derivatives: bool) -> Option<()> {
+    /// Renders the model at the state and takes it off the pixels; `None` if it leaves the field.
+    fn residuals(&mut self, state: &FitState, derivatives: bool) -> Option<()> {
         if !self.field.holds(&state.outline, state.blur) {
             return None;
         }
@@ -278,14 +283,14 @@ impl Workspace {
     }
 
     /// Residual beyond which, near the end, a pixel is not the target's.
-    fn outlier_limit(&mut self, state: &State, region: &Region) -> f64 {
+    fn outlier_limit(&mut self, state: &FitState, region: &PixelRegion) -> f64 {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { limits::SHARP * state.lit.contrast.abs() } else { 0.0 };
         let profile = if region.stairs { limits::STAIRS } else { limits::LENS };
         // where the rim departs from an ellipse, by the steepness of its profile
         let steepest = 1.0 / (std::f64::consts::TAU * (state.blur * state.blur + 1.0 / 12.0)).sqrt();
         let shape = limits::DEPARTS * region.shape * steepest;
-        let least = (limits::OUTLIER * region.surround.noise.max(limits::QUIET))
+        let least = (limits::OUTLIER * region.surround.noise.max(QUIET))
             .max(sharp)
             .max(profile.max(shape) * state.lit.contrast.abs());
         // rounding to levels that lie apart moves a sample by up to half of that
@@ -293,7 +298,7 @@ impl Workspace {
         least.max(limits::OUTLIER * self.band.robust_deviation(least / limits::OUTLIER))
     }
 
-    fn normal(&self, state: &State, flats: &Flats) -> Normal {
+    fn normal(&self, state: &FitState, flats: &Flats) -> NormalMatrix {
         let mut normal = self.band.normal(state.lit.contrast);
         flats.add_normal(&state.lit, &mut normal);
         if let Some(prior) = &state.prior {
@@ -302,7 +307,7 @@ impl Workspace {
         normal
     }
 
-    fn right(&self, state: &State, flats: &Flats) -> Unknowns {
+    fn right(&self, state: &FitState, flats: &Flats) -> Unknowns {
         let mut right = self.band.right(state.lit.contrast);
         flats.add_right(&state.lit, &mut right);
         if let Some(prior) = &state.prior {
@@ -313,12 +318,12 @@ impl Workspace {
 }
 
 /// Values of the unknowns.
-struct State {
+struct FitState {
     outline: Outline,
     blur: f64,
     lit: Lit,
     prior: Option<Prior>,
-    /// Contrast that the scale has room for, and the largest that is believed.
+    /// Contrast that the scale can show, and the maximum that is accepted.
     shown: f64,
     brightest: f64,
     /// Size of the last correction, and the share of corrections that is made.
@@ -326,7 +331,7 @@ struct State {
     share: f64,
 }
 
-impl State {
+impl FitState {
     /// Blur and pixel together: corrections that are small against it change the profile in proportion.
     fn pixel(&self) -> f64 {
         self.blur + 0.3
@@ -338,7 +343,7 @@ impl State {
     }
 
     /// What the first correction is compared with: Newton's steps shrink in the ratio of the correction to the profile's
-    /// width. Where it is clipped, contrast and blur nearly stand for each other and may go on for long, which the centre
+    /// width. Where it is saturated, contrast and blur can hardly be separated and may go on for long, which the centre
     /// does not notice: two corrections of an approach, and one of a fit that follows it, are enough.
     fn first(&self) -> f64 {
         if self.is_clipped() { f64::INFINITY } else { self.pixel() }
@@ -355,7 +360,7 @@ impl State {
         (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
     }
 
-    /// None when there were rounds enough.
+    /// `None` if there were rounds enough.
     fn may_go_on(&self, round: u32) -> Option<()> {
         let [usual, swallowed, clipped] = ROUNDS;
         let rounds = if self.lit.contrast.abs() > self.shown { clipped } else { usual };
@@ -363,7 +368,7 @@ impl State {
     }
 
     /// Solves and corrects the state; the size of the correction of outline and blur, in pixels, and the normal matrix used.
-    fn step(&mut self, normal: &Normal, right: &Unknowns) -> Option<(f64, Normal)> {
+    fn step(&mut self, normal: &NormalMatrix, right: &Unknowns) -> Option<(f64, NormalMatrix)> {
         let (mut normal, mut right) = (*normal, *right);
         let mut step = solve(&normal, &right)?;
         if self.blur_leaves(step[5]) {
@@ -381,7 +386,7 @@ impl State {
         }
         let limit = 0.8 * self.pixel();
         let whole = (limit / size).min(0.6 * self.lit.contrast.abs() / step[6].abs()).min(1.0);
-        // where contrast and blur nearly stand for each other whole corrections may go to and fro for ever
+        // where contrast and blur can hardly be separated whole corrections may go to and fro for ever
         if self.is_clipped() && size > STUCK * self.before {
             self.share = (HALTING * self.share).max(LEAST_SHARE);
         }
@@ -399,7 +404,7 @@ impl State {
 }
 
 /// Takes one out of the unknowns.
-fn hold(which: usize, normal: &mut Normal, right: &mut Unknowns) {
+fn hold(which: usize, normal: &mut NormalMatrix, right: &mut Unknowns) {
     for i in 0..normal.nrows() {
         (normal[(which, i)], normal[(i, which)]) = (0.0, 0.0);
     }
@@ -409,22 +414,22 @@ fn hold(which: usize, normal: &mut Normal, right: &mut Unknowns) {
 
 /// Scales the normal equations to a unit diagonal, with a trace of damping for what the pixels do not determine (the
 /// contrast of a target that is saturated inside).
-fn scaled(normal: &Normal) -> (Normal, Unknowns) {
+fn scaled(normal: &NormalMatrix) -> (NormalMatrix, Unknowns) {
     let scale = Unknowns::from_fn(|i, _| 1.0 / normal[(i, i)].max(1e-12).sqrt());
-    let mut matrix = Normal::from_fn(|i, j| normal[(i, j)] * scale[i] * scale[j]);
+    let mut matrix = NormalMatrix::from_fn(|i, j| normal[(i, j)] * scale[i] * scale[j]);
     for i in 0..matrix.nrows() {
         matrix[(i, i)] += 1e-7;
     }
     (matrix, scale)
 }
 
-fn solve(normal: &Normal, right: &Unknowns) -> Option<Unknowns> {
+fn solve(normal: &NormalMatrix, right: &Unknowns) -> Option<Unknowns> {
     let (matrix, scale) = scaled(normal);
     Some(matrix.cholesky()?.solve(&right.component_mul(&scale)).component_mul(&scale))
 }
 
-fn invert(normal: &Normal) -> Option<Normal> {
+fn invert(normal: &NormalMatrix) -> Option<NormalMatrix> {
     let (matrix, scale) = scaled(normal);
     let inverse = matrix.cholesky()?.inverse();
-    Some(Normal::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
+    Some(NormalMatrix::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
 }

@@ -3,7 +3,7 @@
 //! Their model, B or B + C in light that changes ([`lit`](super::lit)), is linear in each: only moments of their pixels are kept, summed row
 //! by row in whole numbers.
 
-use super::band::{Normal, Region, Unknowns};
+use super::band::{NormalMatrix, PixelRegion, Unknowns};
 use super::lit::Lit;
 use crate::detect::acceptance::fit::FLAT;
 use crate::image::Sample;
@@ -11,13 +11,13 @@ use crate::image::Sample;
 /// Moments of flat parts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Flats {
-    pub inside: Moments,
-    pub outside: Moments,
+    pub inside: LevelMoments,
+    pub outside: LevelMoments,
 }
 
 /// Sums over pixels at (x, y) from the origin, of level g.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Moments {
+pub(crate) struct LevelMoments {
     n: f64,
     x: f64,
     y: f64,
@@ -31,7 +31,7 @@ pub(crate) struct Moments {
 
 impl Flats {
     /// Adds J'J of the flat parts.
-    pub fn add_normal(&self, lit: &Lit, normal: &mut Normal) {
+    pub fn add_normal(&self, lit: &Lit, normal: &mut NormalMatrix) {
         for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
             let steep = lit.steepness(share);
             let first = [m.n, steep * m.x, steep * m.y];
@@ -62,7 +62,7 @@ impl Flats {
     }
 }
 
-impl Moments {
+impl LevelMoments {
     /// Number, sums of x, x², r and x r of the pixels that count, with x from the middle column and r the level less a whole
     /// number near the one that is expected there: for what is no outlier these sums are small.
     #[inline(always)]
@@ -70,7 +70,7 @@ impl Moments {
         samples: &[T],
         first: usize,
         y: usize,
-        region: &Region,
+        region: &PixelRegion,
         inside: bool,
         counts: impl Fn(usize) -> bool,
     ) -> [i32; 5] {
@@ -106,8 +106,15 @@ impl Moments {
         [product(&rows[0], &rows[0]), product(&rows[0], &rows[1]), product(&rows[1], &rows[1])]
     }
 
-    /// Adds the pixels of a span of a row that are neither hidden nor outliers: further than four sigmas from the plane.
-    pub fn add<T: Sample>(&mut self, row: &[T], span: std::ops::Range<usize>, y: usize, region: &Region, inside: bool) {
+    /// Adds the pixels of a span of a row that are neither occluded nor outliers: further than four sigmas from the plane.
+    pub fn add<T: Sample>(
+        &mut self,
+        row: &[T],
+        span: std::ops::Range<usize>,
+        y: usize,
+        region: &PixelRegion,
+        inside: bool,
+    ) {
         if span.is_empty() {
             return;
         }
@@ -143,7 +150,7 @@ fn nearest(level: f64) -> f64 {
 }
 
 /// Middle column of a row, and the level expected there.
-fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
+fn origin(y: usize, region: &PixelRegion, inside: bool) -> (i64, f64) {
     let surround = region.surround;
     let dy = y as f64 + 0.5 - region.outline.v;
     let level = surround.level + expected_slope(region, inside)[1] * dy + if inside { surround.contrast } else { 0.0 };
@@ -151,7 +158,7 @@ fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
 }
 
 /// Slope of the levels expected there: as measured outside, that of the light inside.
-fn expected_slope(region: &Region, inside: bool) -> [f64; 2] {
+fn expected_slope(region: &PixelRegion, inside: bool) -> [f64; 2] {
     let surround = region.surround;
     if inside && region.multiplies {
         region.light.map(|light| light * (surround.level + surround.contrast))

@@ -1,6 +1,6 @@
 //! Grey levels of a fit with an illumination gradient across the target.
 //!
-//! Light multiplies: lens, lamps and shading make it change by the share h a pixel, and the ground of level B has the slope B h, the disc
+//! Light multiplies: lens, lamps and shading make it change by the share h a pixel, and the background of level B has the slope B h, the disc
 //! of level B + C the slope (B + C) h. A gamma curve leaves that as it is, (L R)^(1/γ) = L^(1/γ) R^(1/γ), with h / γ for h. The model is
 //!
 //! m(x, y) = t (1 + h·(x, y)), t = B + C I, with I the share of the disc in a pixel,
@@ -11,18 +11,18 @@
 //! One slope for both levels costs a centre 1 to 6 % of its standard error against none at all, where a slope of its own for the disc would cost
 //! 10 to 160 %; before black, where nothing but the disc shows the light, it costs what that one does.
 //!
-//! Where neighbours leave no ground but a gap, what they throw into it passes for such a slope. What has no fit there is fitted with a slope
+//! Where neighbours leave no background but a gap, what they throw into it passes for such a slope. What has no fit there is fitted with a slope
 //! that adds to all levels alike, which the flat inside of the disc determines. Its errors stay within what the neighbours' light adds to the
 //! covariance (`tests/engine/detect/light.rs`: error / sigma 0.93 at pitches of 1.2 to 1.5 diameters in light that changes by up to a tenth).
 
 use crate::detect::edges::surround::Surround;
 
-/// Levels of ground and disc, and the slope of the light.
+/// Levels of background and disc, and the slope of the light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lit {
-    /// Level of the ground at the place that the slope is counted from.
+    /// Level of the background at the place that the slope is counted from.
     pub ground: f64,
-    /// Disc less ground there.
+    /// Disc less background there.
     pub contrast: f64,
     /// Slope of the light, in grey levels a pixel where the level is `reference`.
     pub slope: [f64; 2],
@@ -32,13 +32,13 @@ pub(crate) struct Lit {
 }
 
 impl Lit {
-    /// From the levels of a surround and the slope of the light as a share of it a pixel, or from the surround's own that adds.
+    /// From the levels of an annulus and the slope of the light as a share of it a pixel, or from the annulus's own that adds.
     pub fn of(surround: &Surround, light: [f64; 2], multiplies: bool) -> Self {
         let lit = Self::new(surround.level, surround.contrast, light);
         if multiplies { lit } else { Self { slope: surround.slope, multiplies, ..lit } }
     }
 
-    /// From levels of ground and contrast, and the slope of the light as a share of it a pixel.
+    /// From levels of background and contrast, and the slope of the light as a share of it a pixel.
     pub fn new(ground: f64, contrast: f64, light: [f64; 2]) -> Self {
         let reference = ground.abs().max((ground + contrast).abs()).max(1.0);
         Self { ground, contrast, slope: light.map(|light| light * reference), reference, multiplies: true }
@@ -71,7 +71,7 @@ impl Lit {
         self.slope = self.slope.map(|slope| slope / light);
     }
 
-    /// Adds corrections of contrast, ground and slope.
+    /// Adds corrections of contrast, background and slope.
     pub fn add(&mut self, corrections: &[f64]) {
         let values = [&mut self.contrast, &mut self.ground].into_iter().chain(&mut self.slope);
         values.zip(corrections).for_each(|(value, correction)| *value += correction);

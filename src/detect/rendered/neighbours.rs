@@ -2,7 +2,7 @@
 //!
 //! Blur carries the light of a code's ring, or of a neighbour, onto the pixels of the rim. Where it is too little to stand out as an
 //! outlier it pulls the centre all the same, and all of it in one direction: noise of single pixels would average out, this does not.
-//! Its size is known well enough to say by how much the centre may be off: along each ray what stands there begins where the level
+//! Its size is known well enough to say by how much the centre may be off: along each ray an object begins where the level
 //! has risen half-way from its least to its largest, with a rim as blurred as the target's own. (With the target's own light taken off
 //! the ray, or the fit's background for the least level, centres of small coded dots come out worse: .0215 and .0190 px instead of .0183.)
 
@@ -12,23 +12,23 @@ use crate::detect::acceptance::fit::RISE;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::rim_points;
 use crate::detect::normal::normal_distribution;
-use crate::image::{Plane, Sample};
+use crate::image::{Sample, SampleView};
 
 /// Rays around an outline.
 const RAYS: usize = 48;
 /// Samples along a ray, a pixel apart, at most.
 const LONGEST: usize = 48;
-/// Blurs beyond the rim's pixels that are looked at: what begins further out leaves nothing there.
+/// Distance beyond the rim's pixels that is examined, in blurs: objects further out have no effect.
 const FAR: f64 = 3.0;
 
-/// What begins along a ray: its distance from the rim in pixels, and its height as a share of the target's contrast.
+/// A neighbouring edge along a ray: its distance from the rim in pixels, and its height as a share of the target's contrast.
 #[derive(Clone, Copy, Default)]
 struct Begin {
     distance: f64,
     height: f64,
 }
 
-/// What stands around a target.
+/// Objects around a target.
 pub(crate) struct Neighbours {
     rays: [Begin; RAYS],
     outline: Outline,
@@ -36,10 +36,10 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Around an outline of this blur and contrast, whose fit leaves this rms, for pixels up to `reach` beyond it. None where nothing
+    /// Around an outline of this blur and contrast, whose fit leaves this rms, for pixels up to `reach` beyond it. `None` if nothing
     /// stands there.
     pub fn of<T: Sample>(
-        plane: &Plane<T>,
+        plane: &SampleView<T>,
         outline: &Outline,
         blur: f64,
         contrast: f64,
@@ -60,7 +60,7 @@ impl Neighbours {
         rays.iter().any(|begin| begin.height > 0.0).then_some(Self { rays, outline: *outline, blur })
     }
 
-    /// Distance of the nearest from the rim, in pixels, where there are several: what stands on one side alone may lie over the rim.
+    /// Distance of the nearest from the rim, in pixels, where there are several: an object on one side only may occlude the rim.
     pub fn nearest_of_several(&self) -> Option<f64> {
         let stands = |k: usize| self.rays[k % RAYS].height > 0.0;
         let several = (0..RAYS).filter(|k| stands(k + 1) && !stands(*k)).count() > 1;
@@ -133,7 +133,7 @@ mod tests {
     fn ink_beside_a_disc_throws_the_light_of_its_rim() {
         let outline = Outline::from_axes(20.0, 20.0, 5.0, 5.0, 0.0);
         let samples = picture(true, false);
-        let plane = Plane::new(40, 40, &samples);
+        let plane = SampleView::new(40, 40, &samples);
         let neighbours = Neighbours::of(&plane, &outline, BLUR, -150.0, 4.0, 1.0).expect("ink stands there");
         // nearer to it, where pixels are outliers, its rim comes out a fifth of a pixel too far: the disc's own light raises the least level
         for distance in [1.5, 2.0, 2.5] {
@@ -145,7 +145,7 @@ mod tests {
         }
         assert_eq!(neighbours.light(20.0, 20.0), 0.0);
         let alone = picture(false, false);
-        assert!(Neighbours::of(&Plane::new(40, 40, &alone), &outline, BLUR, -150.0, 4.0, 1.0).is_none());
+        assert!(Neighbours::of(&SampleView::new(40, 40, &alone), &outline, BLUR, -150.0, 4.0, 1.0).is_none());
     }
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
         let outline = Outline::from_axes(20.0, 20.0, 5.0, 5.0, 0.0);
         let nearest = |right, left| {
             let samples = picture(right, left);
-            let around = Neighbours::of(&Plane::new(40, 40, &samples), &outline, BLUR, -150.0, 4.0, 1.0);
+            let around = Neighbours::of(&SampleView::new(40, 40, &samples), &outline, BLUR, -150.0, 4.0, 1.0);
             around.expect("ink stands there").nearest_of_several()
         };
         assert_eq!([nearest(true, false), nearest(false, true)], [None, None]);

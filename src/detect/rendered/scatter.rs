@@ -1,7 +1,7 @@
 //! Covariance of a fitted centre if the noise of a pixel depends on its grey level.
 //!
 //! The noise of light grows with the light: its variance is linear in the grey (EMVA Standard 1288), and a bright disc scatters
-//! more than its dark ground. With I the share of the disc in a pixel, σ²(I) = a + b I is fitted to the squares of the
+//! more than its dark background. With I the share of the disc in a pixel, σ²(I) = a + b I is fitted to the squares of the
 //! residuals, E r² = (1 - h) σ² with h the pixel's leverage j' N⁻¹ j, and the covariance of the unweighted unknowns follows by
 //! the law of propagation,
 //!
@@ -9,13 +9,13 @@
 //! Σ = N⁻¹ (Σ j j' σ²(I)) N⁻¹ = a N⁻¹ + b Σ I z z',   z = N⁻¹ j
 //! ```
 //!
-//! with j the row of the design matrix. The mean of all squares would not do: most pixels of the band lie on the ground, what
+//! with j the row of the design matrix. The mean of all squares would not do: most pixels of the band lie on the background, what
 //! determines the centre lies half way up the rim. For the same reason a third term c 4I(1 - I) takes what rims have more than either side
 //! of them, where the residuals are beyond the noise: in-camera denoising and compression leave noise where edges are.
 
 use nalgebra::{Matrix3, Matrix3x2, Vector3};
 
-use super::band::Normal;
+use super::band::NormalMatrix;
 use super::flats::Flats;
 use super::lit::Lit;
 
@@ -59,9 +59,9 @@ impl Lights {
 }
 
 /// Covariance (uu, uv, vv) of the centre with the cofactors of all unknowns.
-pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats, lit: &Lit) -> [f64; 3] {
+pub(crate) fn covariance(cofactors: &NormalMatrix, band: &Lights, flats: &Flats, lit: &Lit) -> [f64; 3] {
     let [ground, growth, rim] = curve(band);
-    // Inside, z is linear: the disc's level is that of the ground and the contrast, and its slope follows the light.
+    // Inside, z is linear: the disc's level is that of the background and the contrast, and its slope follows the light.
     let steep = lit.steepness(1.0);
     let row = |i: usize| [cofactors[(i, 6)] + cofactors[(i, 7)], steep * cofactors[(i, 8)], steep * cofactors[(i, 9)]];
     let disc = flats.inside.products(&[row(0), row(1)]);
@@ -70,7 +70,7 @@ pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats, lit: 
     std::array::from_fn(|k| ground * own[k] + growth * (band.lit[k] + disc[k]) + rim * moved[k])
 }
 
-/// a, b and c of the variance a + b I + c R, a line where rims have no more than it, and never negative between ground and disc.
+/// a, b and c of the variance a + b I + c R, a line where rims have no more than it, and never negative between background and disc.
 fn curve(band: &Lights) -> [f64; 3] {
     let [ground, growth] = line(band.powers, band.squares);
     let Some(rim) = band.rim else { return [ground, growth, 0.0] };
@@ -78,7 +78,7 @@ fn curve(band: &Lights) -> [f64; 3] {
     let [of_rim, lit_rim, rim_rim] = rim.powers;
     let normal = Matrix3::new(n, first, of_rim, first, second, lit_rim, of_rim, lit_rim, rim_rim);
     let right = Vector3::new(all, lit, rim.squares);
-    // all three; no noise on the ground; none on the disc
+    // all three; no noise on the background; none on the disc
     let disc_and_rim = Matrix3x2::new(0.0, 0.0, 1.0, 0.0, 0.0, 1.0);
     let ground_and_rim = Matrix3x2::new(1.0, 0.0, -1.0, 0.0, 0.0, 1.0);
     let within = |basis: Matrix3x2<f64>| {
@@ -92,7 +92,7 @@ fn curve(band: &Lights) -> [f64; 3] {
     found.unwrap_or([ground, growth, 0.0])
 }
 
-/// a and b of the variance a + b I, never negative between ground and disc.
+/// a and b of the variance a + b I, never negative between background and disc.
 fn line([n, first, second]: [f64; 3], [all, lit]: [f64; 2]) -> [f64; 2] {
     let determinant = n * second - first * first;
     // Where nearly all pixels are alike there is nothing to tell the two apart.

@@ -9,7 +9,7 @@
 //! nothing, of an ellipse of ratio 0.8 some eighth of the departure. k = 2 is an ellipse, even k are the same on opposite
 //! sides and move no centre; k = 5 and more move it by less than a tenth of what k = 3 does.
 
-use super::band::{Band, Normal};
+use super::band::{Band, NormalMatrix};
 use crate::detect::ellipse::outline::Outline;
 
 /// Waves around the rim that move a centre.
@@ -23,7 +23,7 @@ impl Band {
         origin: [f64; 2],
         blur: f64,
         contrast: f64,
-        cofactors: &Normal,
+        cofactors: &NormalMatrix,
     ) -> [f64; 3] {
         let near = Outline { u: outline.u - origin[0], v: outline.v - origin[1], ..*outline };
         let width = (blur * blur + 1.0 / 12.0).sqrt();

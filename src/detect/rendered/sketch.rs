@@ -68,13 +68,13 @@ mod tests {
     use super::*;
     use crate::detect::edges::surround::Surround;
     use crate::detect::rendered::Field;
-    use crate::detect::rendered::band::Region;
-    use crate::image::Plane;
+    use crate::detect::rendered::band::PixelRegion;
+    use crate::image::SampleView;
 
     #[test]
     fn a_sketch_is_nearly_what_is_rendered() {
         let samples = vec![0u8; 80 * 80];
-        let plane = Plane::new(80, 80, &samples);
+        let plane = SampleView::new(80, 80, &samples);
         let surround = Surround {
             level: 0.0,
             slope: [0.0; 2],
@@ -89,7 +89,7 @@ mod tests {
             let kept = [true; 20];
             let half_band = 3.6 * blur + 1.0;
             let (mut band, mut field) = (Band::default(), Field::default());
-            let region = Region {
+            let region = PixelRegion {
                 outline,
                 half_band,
                 surround: &surround,

@@ -1,7 +1,7 @@
 //! An occluder across a target, from the two places where it hides the rim.
 //!
 //! A cable hides the rim twice. In between it lies on the disc, and may differ from it by so little that no pixel tells: only what
-//! lies on the far side of the chords between the ends of both is the target's, or its ground.
+//! lies on the far side of the chords between the ends of both is the target's, or its background.
 
 use crate::detect::ellipse::outline::Outline;
 
@@ -11,7 +11,7 @@ pub(crate) struct Strip([Option<[f64; 3]>; 2]);
 
 impl Strip {
     /// Between the rays of an outline that are not kept, where these are two runs. A cap that is less deep than `shallow` pixels is
-    /// hidden as well.
+    /// occluded as well.
     pub fn of(outline: &Outline, kept: &[bool], shallow: f64) -> Option<Self> {
         let count = kept.len();
         let ends = (0..count).filter(|k| kept[*k] && !kept[(k + 1) % count]).take(3).collect::<Vec<_>>();

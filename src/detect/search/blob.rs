@@ -6,15 +6,15 @@
 //! lengths on a parabola. Letters, corners and bars do not fit and go here, at the price of some hundred operations.
 
 use super::component::Chord;
-use crate::detect::acceptance::blob::{FILL, FILL_OF_FEW, NECK, RMS, UNSEEN};
-use crate::detect::acceptance::size::{BLOB_GROWN, BLOB_LARGE, BLOB_SMALL, MOMENTS_FLAT};
+use crate::detect::acceptance::blob::{FILL, NECK, RMS, UNSEEN};
+use crate::detect::acceptance::size::{BLOB_LARGE, BLOB_SMALL};
 use crate::detect::ellipse::conic;
 use crate::detect::ellipse::outline::Outline;
 use crate::detection::Reason;
 
-/// What the scanned picture allows.
+/// Limits of blobs in the scanned picture.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
+pub(crate) struct BlobLimits {
     /// Smallest full axis in pixels of the scanned picture.
     pub min_diameter: f64,
     /// Largest full axis.
@@ -28,7 +28,7 @@ pub(crate) struct Limits {
     pub step: usize,
 }
 
-/// A blob that is no target.
+/// A rejected blob.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NoBlob {
     pub u: f64,
@@ -40,14 +40,14 @@ pub(crate) struct NoBlob {
 }
 
 impl NoBlob {
-    /// An outline that is no target's.
+    /// The outline of a rejected blob.
     pub fn of(outline: &Outline, reason: Reason) -> Self {
         Self { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason, outline: Some(*outline) }
     }
 }
 
 /// Tests a chain of runs: its ellipse, to a fraction of a pixel, or why it has none.
-pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> {
+pub(crate) fn test(chain: &[Chord], limits: &BlobLimits) -> Result<Outline, NoBlob> {
     if let [run] = chain
         && f64::from(run.x1 - run.x0) < limits.max_diameter
     {
@@ -58,7 +58,7 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     let moments = Moments::of(chain, limits.step as f64);
     let [u, v] = moments.middle;
     let no = |reason| NoBlob { u, v, diameter: moments.longest, reason, outline: None };
-    if moments.longest > BLOB_LARGE * limits.max_diameter + BLOB_GROWN {
+    if moments.longest > BLOB_LARGE * limits.max_diameter {
         return Err(no(Reason::TooLarge));
     }
     if chain.len() < 2 || moments.longest < BLOB_SMALL * limits.min_diameter {
@@ -66,21 +66,20 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     }
     let Some(outline) = moments.outline() else { return Err(no(Reason::NotAnEllipse)) };
     let lowest = limits.height.saturating_sub(limits.step) as f32;
-    // the runs stand in the order of their rows
+    // the runs are in the order of their rows
     let at_border = |chord: &Chord| chord.y < limits.step as f32 || chord.y > lowest;
     let cut = moments.cut || chain.first().is_some_and(at_border) || chain.last().is_some_and(at_border);
     let (a, b) = outline.semi_axes();
     let fill = moments.area / (std::f64::consts::PI * a * b);
     if chain.len() < 4 {
-        // up to one step of height is unknown above and below: only the roughest test is fair
+        // up to one step of height is unknown above and below: no test of the area is fair
         return match cut {
             true => Err(no(Reason::AtBorder)),
-            false if (fill - 1.0).abs() > FILL_OF_FEW => Err(no(Reason::NotAnEllipse)),
             false if fattest(chain, limits.step as f64) < limits.flattest => Err(no(Reason::TooFlat)),
             false => Ok(outline),
         };
     }
-    let flat = b < MOMENTS_FLAT * limits.flattest * a;
+    let flat = b < limits.flattest * a;
     if !cut && ((fill - 1.0).abs() > FILL || flat) {
         return Err(no(if flat { Reason::TooFlat } else { Reason::NotAnEllipse }));
     }
@@ -186,7 +185,7 @@ fn through_runs(chain: &[Chord], moments: &Moments) -> Option<(Outline, f64)> {
 }
 
 /// The same from the ends that are not the picture's border, by the direct fit.
-fn through_ends(chain: &[Chord], limits: &Limits) -> Option<(Outline, f64)> {
+fn through_ends(chain: &[Chord], limits: &BlobLimits) -> Option<(Outline, f64)> {
     let ends: Vec<[f64; 3]> = chain
         .iter()
         .flat_map(|chord| [(chord.x0, chord.y), (chord.x1, chord.y)])
@@ -214,7 +213,7 @@ struct Moments {
 }
 
 impl Moments {
-    /// Each run stands for a bar of `step` rows. Summed about the first run, where the sums stay small.
+    /// Each run represents a bar of `step` rows. Summed about the first run, where the sums stay small.
     fn of(chain: &[Chord], step: f64) -> Self {
         let (x, y) = chain.first().map_or((0.0, 0.0), |first| (f64::from(first.x0), f64::from(first.y)));
         let (mut left, mut right, mut cut) = (f32::INFINITY, f32::NEG_INFINITY, false);
@@ -263,8 +262,8 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
+    const LIMITS: BlobLimits =
+        BlobLimits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
 
     fn chain(outline: &Outline) -> Vec<Chord> {
         (0..100)
@@ -327,7 +326,7 @@ mod tests {
             let x = |k: usize| 100.0 + lean * 2.0 * k as f32;
             (0..count).map(|k| Chord::new(x(k), x(k) + width, 20.5 + 2.0 * k as f32, false)).collect()
         };
-        // two rows stand for up to six: a circle of six pixels, an ellipse of twenty by six upright, a bar, a slanted stroke
+        // two rows represent up to six: a circle of six pixels, an ellipse of twenty by six upright, a bar, a slanted stroke
         assert!((fattest(&rows(2, 6.0, 0.0), 2.0) - 1.0).abs() < 1e-9);
         assert!((fattest(&rows(2, 20.0, 0.0), 2.0) - 0.3).abs() < 1e-9);
         assert_eq!(test(&rows(2, 40.0, 0.0), &LIMITS).unwrap_err().reason, Reason::TooFlat);

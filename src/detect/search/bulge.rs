@@ -4,7 +4,7 @@
 //! wider: the rows that are wider than the cable are those of the target, and are tested as a blob of their own. How wide the cable
 //! is the narrow ones of the rows tell; what share of the rows they are depends on its length.
 
-use super::blob::{self, Limits};
+use super::blob::{self, BlobLimits};
 use super::component::Chord;
 use super::partial;
 use crate::detect::acceptance::bulge::{NARROW, WIDER};
@@ -12,7 +12,7 @@ use crate::detect::acceptance::partial::RUNS;
 use crate::detect::ellipse::outline::Outline;
 
 /// The ellipses of the pieces of a chain that are wider than the rest of it.
-pub(crate) fn bulges(chain: &[Chord], limits: &Limits) -> Vec<Outline> {
+pub(crate) fn bulges(chain: &[Chord], limits: &BlobLimits) -> Vec<Outline> {
     let mut found = Vec::new();
     if chain.len() < 2 * RUNS {
         return found;
@@ -42,8 +42,8 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 400, step: 2 };
+    const LIMITS: BlobLimits =
+        BlobLimits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 400, step: 2 };
 
     /// What discs and an upright band cover together, in every second row; the band goes sideways by `lean` a row.
     fn joined(discs: &[Outline], x: f64, lean: f64, half: f64, rows: std::ops::Range<f64>) -> Vec<Chord> {

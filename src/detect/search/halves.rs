@@ -6,16 +6,16 @@
 use std::f64::consts::PI;
 
 use super::Candidate;
-use super::blob::Limits;
+use super::blob::BlobLimits;
 use super::component::Chord;
 use super::partial::is_possible;
-use crate::detect::acceptance::halves::{AREA, FILL, FOLLOWING, FULLEST, GAP, SHORTER, SHORTEST, SMALLER};
+use crate::detect::acceptance::halves::{AREA, FILL, FOLLOWING, GAP, SHORTER};
 use crate::detect::acceptance::partial::{GOOD, SMALLEST};
-use crate::detect::acceptance::size::BLOB_LARGE;
+use crate::detect::acceptance::size::{BLOB_LARGE, BLOB_SMALL};
 use crate::detect::ellipse::conic;
 use crate::detect::ellipse::outline::Outline;
 
-/// What may be parts of targets.
+/// Candidates for parts of targets.
 #[derive(Default)]
 pub(crate) struct Parts {
     all: Vec<Part>,
@@ -41,7 +41,7 @@ fn larger(a: f32, b: f32) -> f32 {
 
 impl Parts {
     /// Takes a blob without a shape of its own, unless it is too large or too small for a part.
-    pub fn take(&mut self, chain: &[Chord], bright: bool, limits: &Limits) {
+    pub fn take(&mut self, chain: &[Chord], bright: bool, limits: &BlobLimits) {
         let [first, .., last] = chain else { return };
         let step = limits.step as f32;
         let (mut low, mut high, mut area) = (f32::MAX, f32::MIN, 0.0);
@@ -50,7 +50,7 @@ impl Parts {
             area += step * (chord.x1 - chord.x0);
         }
         let longest = f64::from(larger(high - low, last.y - first.y + step));
-        let possible = SHORTEST * SMALLEST..BLOB_LARGE * limits.max_diameter;
+        let possible = BLOB_SMALL * SMALLEST..BLOB_LARGE * limits.max_diameter;
         if !possible.contains(&longest) || chain.iter().any(|chord| chord.cut) {
             return;
         }
@@ -61,7 +61,7 @@ impl Parts {
     }
 
     /// Ellipses of which two of them are the parts.
-    pub fn joined(mut self, limits: &Limits) -> Vec<Candidate> {
+    pub fn joined(mut self, limits: &BlobLimits) -> Vec<Candidate> {
         // stable: native and wasm give the same order
         self.all.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
         let mut found = Vec::new();
@@ -78,8 +78,8 @@ impl Parts {
         found
     }
 
-    /// The ellipse of both; none where they are no halves of one.
-    fn ellipse(&self, one: &Part, other: &Part, limits: &Limits) -> Option<Outline> {
+    /// The ellipse of both; `None` if they are not two halves of one ellipse.
+    fn ellipse(&self, one: &Part, other: &Part, limits: &BlobLimits) -> Option<Outline> {
         let mut runs = [&self.runs[one.runs.clone()], &self.runs[other.runs.clone()]].concat();
         runs.sort_by(|a, b| a[2].total_cmp(&b[2]));
         let left = side(runs.iter().map(|[x, _, y]| [*x, *y]), -1.0);
@@ -108,7 +108,7 @@ impl Part {
     }
 
     /// Whether size and place of both allow that they are parts of one target.
-    fn may_belong_to(&self, other: &Self, limits: &Limits) -> bool {
+    fn may_belong_to(&self, other: &Self, limits: &BlobLimits) -> bool {
         let sizes = [self.size(), other.size()];
         let longer = larger(sizes[0], sizes[1]);
         let gap = GAP as f32 * longer;
@@ -120,12 +120,11 @@ impl Part {
             && apart(1) <= gap
             && smaller(sizes[0], sizes[1]) >= SHORTER as f32 * longer
             && apart(0) <= gap
-            && smaller(self.area, other.area) >= SMALLER as f32 * larger(self.area, other.area)
-            && (0.5 * AREA..FULLEST).contains(&filled)
+            && filled >= 0.5 * AREA
     }
 }
 
-/// One side of the convex hull of places that stand in the order of their rows: -1 for the left one.
+/// One side of the convex hull of positions in the order of their rows: -1 for the left one.
 fn side(places: impl Iterator<Item = [f32; 2]>, sign: f32) -> Vec<[f32; 2]> {
     let mut hull: Vec<[f32; 2]> = Vec::new();
     for [x, y] in places {
@@ -152,8 +151,8 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
+    const LIMITS: BlobLimits =
+        BlobLimits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
 
     /// Runs in every second row.
     fn chain(chord: impl Fn(f64) -> Option<(f64, f64)>) -> Vec<Chord> {

@@ -5,20 +5,20 @@
 
 use wide::f32x4;
 
-use super::blob::Limits;
+use super::blob::BlobLimits;
 use super::component::Chord;
 use crate::detect::acceptance::partial::{FOLLOWING, GOOD, HOPELESS, RUNS, SMALLEST, SPANNED, STEPS, WINDOW};
 use crate::detect::acceptance::size::{BLOB_LARGE, BLOB_SMALL};
 use crate::detect::ellipse::conic::Sums;
 use crate::detect::ellipse::outline::Outline;
 
-/// Ends that are looked at: of a large blob every so manieth.
+/// Ends that are examined: of a large blob every so manieth.
 const ENDS: usize = 48;
 /// Windows that are tried, of few ends as many as differ by two.
 const WINDOWS: usize = 8;
 
-/// The ellipse that most of a chain's ends follow; none where there is no such one, or the blob is too small to tell.
-pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
+/// The ellipse that most of a chain's ends follow; `None` if there is no such one, or the blob is too small to tell.
+pub(crate) fn most(chain: &[Chord], limits: &BlobLimits) -> Option<Outline> {
     let [first, .., last] = chain else { return None };
     let least = SMALLEST;
     let [_, widest] = range(chain.iter().map(|chord| chord.x1 - chord.x0));
@@ -84,7 +84,7 @@ struct Ends {
 }
 
 impl Ends {
-    fn of(chain: &[Chord], limits: &Limits) -> Self {
+    fn of(chain: &[Chord], limits: &BlobLimits) -> Self {
         let inside = |x: f32| x > 0.0 && x < limits.width as f32;
         let right = chain.iter().map(|chord| (chord.x1, chord.y));
         let left = chain.iter().rev().map(|chord| (chord.x0, chord.y));
@@ -183,7 +183,7 @@ fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
 }
 
 /// Whether an ellipse has the size and shape of a target, and lies in the picture.
-pub(super) fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
+pub(super) fn is_possible(outline: &Outline, limits: &BlobLimits, least: f64) -> bool {
     let (a, b) = outline.semi_axes();
     let (half_u, half_v) = outline.half_box();
     outline.is_proper()
@@ -203,8 +203,8 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits =
-        Limits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
+    const LIMITS: BlobLimits =
+        BlobLimits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
 
     fn chain(chord: impl Fn(f64) -> Option<(f64, f64)>) -> Vec<Chord> {
         let row = |k: i32| {
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_target_of_which_a_cap_is_covered_shows_its_ellipse() {
+    fn a_target_of_which_a_cap_is_occluded_shows_its_ellipse() {
         let truth = Outline::from_axes(100.3, 80.2, 20.0, 14.0, 0.7);
         // an upright cover on the right, then a level one above
         let right = chain(|y| truth.chord(y).map(|(x0, x1)| (x0, x1.min(110.0))).filter(|(x0, x1)| x0 < x1));

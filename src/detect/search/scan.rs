@@ -3,14 +3,14 @@
 //! Where |g(x + 3) - g(x)| exceeds the threshold there is an edge; a run of such places of one sign, in which noise may hide
 //! a place or two, is one edge, placed at its centroid. Three pixels bridge the blur of a sharp photograph, so that an edge
 //! shows its whole contrast, and are short enough to keep the two sides of a target of five pixels apart. Sixteen places are
-//! compared at a time; only where there is a difference they are looked at one by one.
+//! compared at a time; only where there is a difference they are examined one by one.
 
 use crate::image::{LANES, Sample};
 
 /// Distance of the two samples that are compared, in pixels.
 pub(crate) const BASE: usize = 3;
 
-/// Most places that noise may hide in the flank of a soft edge.
+/// Maximum number of places that noise may hide in the flank of a soft edge.
 const GAP: usize = 2;
 
 /// An edge of a row.

@@ -48,7 +48,7 @@ impl Curve {
         }
     }
 
-    /// What each level is in light, in 16 bits again.
+    /// Light of each level, scaled to 16 bits.
     pub(super) fn undone(&self) -> Vec<u16> {
         let Self { gain, read, ends: [low, high], .. } = *self;
         let zero = 2.0 * read.sqrt() / gain;
@@ -63,7 +63,7 @@ impl Curve {
         (0..=WHITE as usize).map(of).collect()
     }
 
-    /// What a unit of light is in levels that are undone.
+    /// Levels per unit of light after the tone curve is undone.
     pub(super) fn per_light(&self) -> f64 {
         WHITE * f64::from(self.per_unit) / (ENTRIES - 1) as f64
     }

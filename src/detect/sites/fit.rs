@@ -1,45 +1,46 @@
 //! Least-squares fit of a rendered ellipse to the sites of one colour.
 //!
 //! g(x, y) = (B + C I(x, y; u, v, p, q, r, s)) (1 + h·(x, y)) as for pictures ([`rendered`](crate::detect::rendered)), here at the
-//! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
-//! know a sample's noise would draw the fit to the dark. Which sites the white level clips follows the model too, so that the
-//! choice says nothing of their noise. The covariance is that of the Cramér-Rao bound of these sites where the model holds, and as
-//! much more as the residuals show where it does not. Light that blur carries from what stands around onto the sites is taken back to first
-//! order, as for pictures ([`neighbours`](crate::detect::rendered::neighbours)).
+//! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance is computed from the model, not from the sample:
+//! weights that depend on a sample's noise would bias the fit towards dark samples. For the same reason the model decides which sites
+//! are saturated. The covariance is the Cramér-Rao bound of these sites, scaled by the residuals if these are larger than the noise.
+//! Light that blur carries from neighbouring objects onto the sites is corrected to first order, as for pictures
+//! ([`neighbours`](crate::detect::rendered::neighbours)).
 
 mod system;
 
 use super::Sites;
-use crate::detect::acceptance::sites::{DISTURBED, EXPLAINED, FAR, LENS, OVEREXPOSED};
+use crate::detect::acceptance::fit::{OVEREXPOSED, RMS_NOISE, RMS_PROFILE};
+use crate::detect::acceptance::sites::{DISTURBED, FAR, LENS};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
 use crate::detect::rendered::lit::Lit;
 use crate::detect::rendered::{Field, Span};
-use system::{System, UNKNOWNS, Unknowns, counts, modelled};
+use system::{SiteUnknowns, System, UNKNOWNS, counts, modelled};
 
-/// Most corrections; what is clipped has a longer way to its contrast.
+/// Maximum number of corrections; saturated targets need more.
 const ROUNDS: usize = 40;
-/// Corrections in pixels below which nothing changes any more.
+/// Size of a correction, in pixels, below which the fit has converged.
 const CONVERGED: f64 = 2e-5;
-/// Pixels around the rim's blur that are taken where the ground is free.
+/// Maximum width of the background used around the blurred rim, pixels.
 const WIDEST: f64 = 14.0;
 
-/// What the fit gives. Levels are samples, black taken off.
+/// Result of the fit. Levels are samples minus the black level.
 pub(super) struct SiteFit {
     pub outline: Outline,
     pub blur: f64,
     pub contrast: f64,
-    /// Level of the ground at the centre.
+    /// Level of the background at the centre.
     pub ground: f64,
     /// Rms of the residuals.
     pub rms: f64,
-    /// Share of the sites inside that are clipped.
+    /// Share of the sites inside that are saturated.
     pub clipped: f64,
     /// Covariance of the centre: uu, uv, vv.
     pub covariance: [f64; 3],
 }
 
-/// A site: place from the outline's first centre, light, whether its sample is clipped.
+/// A site: its position, its light (sample minus black level), and whether its sample is saturated.
 struct Site {
     x: i64,
     y: i64,
@@ -49,15 +50,15 @@ struct Site {
     kept: bool,
 }
 
-struct State {
+struct SiteFitState {
     outline: Outline,
     blur: f64,
     lit: Lit,
 }
 
-/// Fits, from an outline and a blur on the whole grid; `outer` is the distance from the rim up to which the ground is free. What is
-/// found chooses the sites anew: which ones count is not left to the first guess; those in a hole do not. `light` is what stands around a fit, seen as far as it
-/// says, and throws onto a site, as a share of the contrast.
+/// Fits, starting from an outline and a blur measured on the whole grid. `outer` is the distance from the rim up to which the background
+/// is free of other objects. After a first fit the sites are chosen anew from its outline; sites in the hole are not used. `light` gives
+/// the light of neighbouring objects at a site, as a share of the contrast, for a fit and a reach around it.
 pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     sites: &Sites,
     start: &Outline,
@@ -84,19 +85,19 @@ pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     if let Some(light) = light(&found, reach(state.blur)) {
         let [pu, pv] = system.pulled(sites, &chosen, &state, field, origin, |x, y| state.lit.contrast * light(x, y))?;
         (found.outline.u, found.outline.v) = (found.outline.u - pu, found.outline.v - pv);
-        // the light is known to about its own size
+        // the standard error of this correction is about its size
         let [uu, uv, vv] = found.covariance;
         found.covariance = [uu + pu * pu, uv + pu * pv, vv + pv * pv];
     }
     Some(found)
 }
 
-/// Corrections until nothing changes any more, from the sites that are the target's; gives the place that the ground's slopes
-/// count from.
+/// Iterates to convergence, excluding sites that do not belong to the target. Returns the position to which the slopes of the background
+/// refer.
 fn approach(
     sites: &Sites,
     chosen: &mut [Site],
-    state: &mut State,
+    state: &mut SiteFitState,
     by_sample: bool,
     field: &mut Field,
 ) -> Option<[f64; 2]> {
@@ -135,12 +136,12 @@ fn approach(
             return Some(origin);
         }
     }
-    // a contrast that the scale does not show may go on for ever, which the centre does not notice
+    // the contrast of a saturated target may not converge, which does not affect the centre
     render(field, state);
     (last < 1e-3).then_some(origin)
 }
 
-/// The sites inside of an outline and not in a hole.
+/// The sites inside an outline, without those in a hole.
 fn choose(sites: &Sites, around: &Outline, hole: Option<&Outline>) -> Vec<Site> {
     let half_v = around.half_box().1;
     let [left, top, right, bottom] = sites.lit;
@@ -163,7 +164,7 @@ fn choose(sites: &Sites, around: &Outline, hole: Option<&Outline>) -> Vec<Site> 
 }
 
 /// First values: medians of the light well inside and outside of the outline.
-fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<State> {
+fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<SiteFitState> {
     let (mut inside, mut outside) = (Vec::new(), Vec::new());
     let (core, rim) = (outline.grown(-(1.2 * blur).min(0.5 * outline.semi_axes().1)), outline.grown(1.5 * blur + 0.5));
     for site in chosen {
@@ -180,10 +181,10 @@ fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<State> {
         (!levels.is_empty()).then(|| *levels.select_nth_unstable_by(middle, f64::total_cmp).1)
     };
     let (disc, ground) = (median(&mut inside)?, median(&mut outside)?);
-    (disc != ground).then_some(State { outline: *outline, blur, lit: Lit::new(ground, disc - ground, [0.0; 2]) })
+    (disc != ground).then_some(SiteFitState { outline: *outline, blur, lit: Lit::new(ground, disc - ground, [0.0; 2]) })
 }
 
-fn render(field: &mut Field, state: &State) {
+fn render(field: &mut Field, state: &SiteFitState) {
     if field.width == 0 || !field.holds(&state.outline, state.blur) {
         field.place(&state.outline, state.blur, 1.5);
     }
@@ -191,8 +192,8 @@ fn render(field: &mut Field, state: &State) {
     field.render(&state.outline, state.blur, true, &spans);
 }
 
-impl State {
-    fn add(&mut self, step: &Unknowns, most: f64) {
+impl SiteFitState {
+    fn add(&mut self, step: &SiteUnknowns, most: f64) {
         self.outline = self.outline.plus(&step.as_slice()[..5]);
         self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);
         self.lit.add(&step.as_slice()[6..]);
@@ -200,8 +201,8 @@ impl State {
     }
 }
 
-/// Leaves out what is not the target's: dirt, hot sites, what stands before it. Whether anything changed.
-fn clean(sites: &Sites, chosen: &mut [Site], state: &State, field: &Field, origin: [f64; 2]) -> bool {
+/// Excludes sites that do not belong to the target: dirt, hot sites, occluders. Returns whether anything changed.
+fn clean(sites: &Sites, chosen: &mut [Site], state: &SiteFitState, field: &Field, origin: [f64; 2]) -> bool {
     let mut changed = false;
     for k in 0..chosen.len() {
         let model = modelled(&chosen[k], state, field, origin);
@@ -217,7 +218,7 @@ fn clean(sites: &Sites, chosen: &mut [Site], state: &State, field: &Field, origi
 fn finished(
     sites: &Sites,
     chosen: &[Site],
-    state: &State,
+    state: &SiteFitState,
     field: &Field,
     origin: [f64; 2],
 ) -> Option<(SiteFit, System)> {
@@ -227,11 +228,11 @@ fn finished(
     let ground = state.lit.ground;
     let rms = (system.squares[1] / free).sqrt();
     let noise = sites.noise.deviation(ground.max(ground + state.lit.contrast));
-    let explained = rms <= EXPLAINED[0] * noise + EXPLAINED[1] * state.lit.contrast.abs();
+    let explained = rms <= RMS_NOISE * noise + RMS_PROFILE * state.lit.contrast.abs();
     if dropped > DISTURBED * chosen.len() as f64 || !explained {
         return None;
     }
-    // what chance makes of the sum of squares is not the noise's
+    // a chance deviation of the sum of squares does not change the noise
     let excess = system.squares[0] / free;
     let factor = if excess > 1.0 + 3.0 * (2.0 / free).sqrt() { excess } else { 1.0 };
     let covariance = system.covariance()?.map(|part| factor * part);
@@ -245,6 +246,6 @@ fn finished(
     }
     let sound = covariance.iter().all(|part| part.is_finite()) && covariance[0] > 0.0 && covariance[2] > 0.0;
     let clipped = clipped / f64::max(inside, 1.0);
-    let State { outline, blur, lit: Lit { contrast, .. } } = *state;
+    let SiteFitState { outline, blur, lit: Lit { contrast, .. } } = *state;
     sound.then_some((SiteFit { outline, blur, contrast, ground, rms, clipped, covariance }, system))
 }

@@ -8,13 +8,13 @@
 use super::Sites;
 use crate::detect::acceptance::sites::TOLD;
 
-/// Rows that are looked at.
+/// Rows that are examined.
 const ROWS: usize = 160;
 /// Classes of light, at even steps of its root.
 const CLASSES: usize = 48;
 /// Differences kept of a class.
 const KEPT: usize = 20_000;
-/// Fewest differences that tell something.
+/// Minimum number of differences for an estimate.
 const FEWEST: usize = 40;
 /// Variance of a variance that is estimated by a median, in units of its square over the number of differences.
 const SPREAD: f64 = 2.7;
@@ -52,7 +52,7 @@ impl NoiseModel {
     }
 }
 
-/// Sample from which one is clipped: the white level, or the largest sample that occurs where samples pile up at it.
+/// Sample from which one is saturated: the white level, or the largest sample that occurs where samples pile up at it.
 pub(super) fn clipping(sites: &Sites) -> f64 {
     let white = sites.sensor.mosaic.white;
     let [left, top, right, bottom] = sites.lit;

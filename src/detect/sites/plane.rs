@@ -23,7 +23,7 @@ pub(super) fn of(sites: &Sites, curve: &Curve) -> (Vec<u16>, usize) {
     let taps = taps(sites);
     let reach = taps.len() - 1;
     let (mut light, mut row_sums) = (Lines::of(sites, 2 * (reach + NEAR) + 1), vec![0f32; width + 2 * reach]);
-    let mut weights = Weights::of(sites, &taps);
+    let mut weights = RowWeights::of(sites, &taps);
     let mut samples = vec![0u16; width * height];
     for (row, line) in samples.chunks_exact_mut(width).enumerate() {
         light.read_to((row + reach + NEAR).min(height - 1));
@@ -76,7 +76,7 @@ fn taps(sites: &Sites) -> Vec<f32> {
 }
 
 /// One over the sum of weights at every pixel of a row: it repeats with the pattern but for the border and rows that are lost.
-struct Weights<'a, 's> {
+struct RowWeights<'a, 's> {
     sites: &'a Sites<'s>,
     taps: &'a [f32],
     /// Of the rows of the pattern, away from the upper and lower border.
@@ -84,7 +84,7 @@ struct Weights<'a, 's> {
     border: Vec<f32>,
 }
 
-impl<'a, 's> Weights<'a, 's> {
+impl<'a, 's> RowWeights<'a, 's> {
     fn of(sites: &'a Sites<'s>, taps: &'a [f32]) -> Self {
         let [_, top, _, bottom] = sites.lit;
         let mut weights = Self { sites, taps, inner: Vec::new(), border: Vec::new() };

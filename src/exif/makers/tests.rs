@@ -12,7 +12,7 @@ fn bytes(value: u32, width: usize, little: bool) -> Vec<u8> {
 /// Tag, type, values.
 type Given = (u16, u16, Vec<u32>);
 
-/// A directory that stands at `at` of the block; its places are counted from `base`.
+/// A directory at offset `at` of the block; its offsets are relative to `base`.
 fn directory(entries: &[Given], at: usize, base: usize, little: bool) -> Vec<u8> {
     let after = at + 2 + 12 * entries.len() + 4;
     let (mut table, mut data) = (bytes(entries.len() as u32, 2, little), Vec::new());
@@ -61,7 +61,7 @@ fn expected(list: &[(Aberration, Setting, &str)]) -> Says {
 
 type Says = Vec<(Aberration, Setting, String)>;
 
-/// Notes of all makers in a byte order: block, maker, what they say.
+/// Notes of all makers in a byte order: block, maker, contents.
 fn notes(little: bool) -> Vec<(Vec<u8>, &'static str, Says)> {
     let other: Given = (0x0001, 2, b"0130 and so on".iter().map(|c| u32::from(*c)).collect());
     let order: &[u8] = if little { b"II" } else { b"MM" };
@@ -175,7 +175,7 @@ fn damaged_notes_say_less_and_never_more() {
                 let read = read(&block[..end], little, make);
                 assert!(read.iter().all(|found| says.contains(found)), "{make} cut at {end}");
             }
-            // Changed anywhere it must end, whatever it says.
+            // Changed at any place, reading must end, with any result.
             for at in 0..block.len() {
                 for value in [0x00, 0x01, 0x7f, 0xff] {
                     let mut changed = block.clone();

@@ -19,7 +19,7 @@ pub enum BoardKind {
     Asymmetric,
 }
 
-/// A board of circular dots. Its coordinates: the first dot at (0, 0, 0), x along its row, y down the rows, z away from who looks at it.
+/// A board of circular dots. Its coordinates: the first dot at (0, 0, 0), x along its row, y down the rows, z away from the viewer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Board {
     /// Number of rows.
@@ -45,9 +45,9 @@ pub struct Board {
 }
 
 /// A site of a lattice: number of steps p and q.
-pub(super) type Site = [i32; 2];
+pub(super) type LatticeSite = [i32; 2];
 
-/// Most dots of a board.
+/// Maximum number of dots of a board.
 const DOTS: u32 = 10_000;
 
 impl Board {
@@ -90,8 +90,8 @@ impl Board {
         (self.rows * self.columns) as usize
     }
 
-    /// Row and column of the dot at a site, from 0; none where the board has no dot.
-    pub(super) fn dot(&self, [p, q]: Site) -> Option<[u32; 2]> {
+    /// Row and column of the dot at a site, from 0; `None` if the board has no dot.
+    pub(super) fn dot(&self, [p, q]: LatticeSite) -> Option<[u32; 2]> {
         let (row, column) = match self.kind {
             BoardKind::Symmetric => (q, p),
             BoardKind::Asymmetric => (p + q, (p - q).div_euclid(2)),
@@ -101,7 +101,7 @@ impl Board {
     }
 
     /// Site of a dot.
-    pub(super) fn site(&self, [row, column]: [u32; 2]) -> Site {
+    pub(super) fn site(&self, [row, column]: [u32; 2]) -> LatticeSite {
         let (row, column) = (row as i32, column as i32);
         match self.kind {
             BoardKind::Symmetric => [column, row],
@@ -113,7 +113,7 @@ impl Board {
     }
 
     /// Whether a site is above, below, left or right of all dots.
-    pub(super) fn sides(&self, [p, q]: Site) -> [bool; 4] {
+    pub(super) fn sides(&self, [p, q]: LatticeSite) -> [bool; 4] {
         let (x, y, last) = match self.kind {
             BoardKind::Symmetric => (p, q, self.columns as i32 - 1),
             BoardKind::Asymmetric => (p - q, p + q, 2 * self.columns as i32 - 1),
@@ -122,7 +122,7 @@ impl Board {
     }
 
     /// Sites of all dots, row by row.
-    pub(super) fn sites(&self) -> impl Iterator<Item = Site> + '_ {
+    pub(super) fn sites(&self) -> impl Iterator<Item = LatticeSite> + '_ {
         (0..self.rows).flat_map(move |row| (0..self.columns).map(move |column| self.site([row, column])))
     }
 

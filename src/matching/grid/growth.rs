@@ -2,20 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::board::Site;
+use super::board::LatticeSite;
 use super::local::{Predicted, predict, shortest};
 use crate::detection::Target;
 use crate::initial::robust::quantile;
 
-/// Fewest dots of a lattice that are taken for a board's: fewer stand in rows by chance.
+/// Minimum number of dots of a lattice that is taken for a board: fewer lie in rows by chance.
 pub(super) const FEWEST: usize = 9;
 /// Neighbours of a dot among which its lattice's steps are looked for: in steep views several dots of a row are nearer than the next row.
 const NEIGHBOURS: usize = 16;
-/// Largest distance of a seed's neighbour from where the opposite one asks for it, in lengths of the step.
+/// Maximum distance of a seed's neighbour from the position opposite to the other neighbour, in lengths of the step.
 const OPPOSITE: f64 = 0.25;
 /// Largest ratio of the sizes of neighbouring dots. Beyond it clutter of any size joins.
 const SIZES: f64 = 1.4;
-/// Steps beyond the placed dots within which a site is looked at: rows that something hides are crossed up to there.
+/// Steps beyond the placed dots within which a site is examined: rows that something hides are crossed up to there.
 const REACH: i32 = 3;
 /// Largest standard error of a prediction and largest distance of a dot from it, in shortest steps: a dot further away is as well
 /// another site's or none of the board.
@@ -44,8 +44,8 @@ pub(super) struct Pool<'a> {
 /// A grown lattice: target by site.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lattice {
-    pub dots: BTreeMap<Site, usize>,
-    pub places: BTreeMap<Site, [f64; 2]>,
+    pub dots: BTreeMap<LatticeSite, usize>,
+    pub places: BTreeMap<LatticeSite, [f64; 2]>,
 }
 
 struct Seed {
@@ -153,7 +153,7 @@ impl<'a> Pool<'a> {
             let (_, dot) = near.iter().find(|(_, k)| self.fits(*k, seed.target, &taken))?;
             lattice.place(self, site, *dot, &mut taken);
         }
-        let mut barred: BTreeSet<(Site, usize)> = BTreeSet::new();
+        let mut barred: BTreeSet<(LatticeSite, usize)> = BTreeSet::new();
         let mut removed = 0;
         loop {
             lattice.extend(self, &mut taken, &barred);
@@ -177,23 +177,23 @@ impl<'a> Pool<'a> {
 }
 
 impl Lattice {
-    fn place(&mut self, pool: &Pool, site: Site, target: usize, taken: &mut BTreeSet<usize>) {
+    fn place(&mut self, pool: &Pool, site: LatticeSite, target: usize, taken: &mut BTreeSet<usize>) {
         self.dots.insert(site, target);
         self.places.insert(site, pool.place(target));
         taken.insert(target);
     }
 
     /// The placed dot next to a site.
-    pub fn nearest(&self, site: Site) -> Option<usize> {
-        let square = |s: &Site| (s[0] - site[0]).pow(2) + (s[1] - site[1]).pow(2);
+    pub fn nearest(&self, site: LatticeSite) -> Option<usize> {
+        let square = |s: &LatticeSite| (s[0] - site[0]).pow(2) + (s[1] - site[1]).pow(2);
         let window = (site[0] - REACH..=site[0] + REACH)
             .flat_map(|p| self.dots.range([p, site[1] - REACH]..=[p, site[1] + REACH]));
         window.filter(|(s, _)| **s != site).min_by_key(|(s, _)| square(s)).map(|(_, k)| *k)
     }
 
     /// Sites without a dot within some steps of one.
-    pub fn open(&self, reach: i32) -> BTreeSet<Site> {
-        let around = |s: &Site| {
+    pub fn open(&self, reach: i32) -> BTreeSet<LatticeSite> {
+        let around = |s: &LatticeSite| {
             let [p, q] = *s;
             (p - reach..=p + reach).flat_map(move |p| (q - reach..=q + reach).map(move |q| [p, q]))
         };
@@ -201,15 +201,15 @@ impl Lattice {
     }
 
     /// Prediction of a site from the dots around it, its own left out.
-    pub fn predicted(&self, site: Site) -> Option<Predicted> {
+    pub fn predicted(&self, site: LatticeSite) -> Option<Predicted> {
         predict(&self.places, site.map(f64::from), Some(site))
     }
 
     /// Places dots until none fits; the surest prediction first.
-    fn extend(&mut self, pool: &Pool, taken: &mut BTreeSet<usize>, barred: &BTreeSet<(Site, usize)>) {
+    fn extend(&mut self, pool: &Pool, taken: &mut BTreeSet<usize>, barred: &BTreeSet<(LatticeSite, usize)>) {
         for reach in 1..=REACH {
             loop {
-                let mut sure: Vec<(f64, Site, usize)> = Vec::new();
+                let mut sure: Vec<(f64, LatticeSite, usize)> = Vec::new();
                 for site in self.open(reach) {
                     let Some(p) = self.predicted(site) else { continue };
                     if p.sigma_px > UNSURE * p.shortest_px {
@@ -240,8 +240,8 @@ impl Lattice {
     }
 
     /// The dot that disagrees most with its neighbours.
-    fn astray(&self) -> Option<(Site, usize)> {
-        let distance = |(site, dot): (&Site, &usize)| {
+    fn astray(&self) -> Option<(LatticeSite, usize)> {
+        let distance = |(site, dot): (&LatticeSite, &usize)| {
             let p = self.predicted(*site)?;
             let [u, v] = self.places[site];
             let off = (u - p.place[0]).hypot(v - p.place[1]);
@@ -254,7 +254,7 @@ impl Lattice {
 
     /// Removes the dots that are further from their places, or of another size, than the others of the lattice are.
     fn remove_unlike(&mut self, pool: &Pool) {
-        let each: Vec<(Site, f64, f64)> = self
+        let each: Vec<(LatticeSite, f64, f64)> = self
             .dots
             .iter()
             .filter_map(|(site, k)| {
@@ -264,7 +264,8 @@ impl Lattice {
                 Some((*site, off, (size(t) / (a[0] * b[1] - a[1] * b[0]).abs().sqrt()).ln()))
             })
             .collect();
-        let median = |of: &dyn Fn(&(Site, f64, f64)) -> f64| quantile(&each.iter().map(of).collect::<Vec<_>>(), 0.5);
+        let median =
+            |of: &dyn Fn(&(LatticeSite, f64, f64)) -> f64| quantile(&each.iter().map(of).collect::<Vec<_>>(), 0.5);
         let usual = median(&|e| e.2);
         let farthest = (TYPICAL * median(&|e| e.1)).max(OFF);
         let widest = (TYPICAL * median(&|e| (e.2 - usual).abs())).max(SIZE_OFF);

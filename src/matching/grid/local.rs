@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::board::Site;
+use super::board::LatticeSite;
 
 /// Steps around a site within which dots are used.
 const WINDOW: i32 = 3;
@@ -33,8 +33,12 @@ pub(super) struct Predicted {
     pub shortest_px: f64,
 }
 
-/// Predicts where `at`, in steps, appears; the dot at `without` is not used. None without three dots that span the plane.
-pub(super) fn predict(dots: &BTreeMap<Site, [f64; 2]>, at: [f64; 2], without: Option<Site>) -> Option<Predicted> {
+/// Predicts where `at`, in steps, appears; the dot at `without` is not used. `None` without three dots that span the plane.
+pub(super) fn predict(
+    dots: &BTreeMap<LatticeSite, [f64; 2]>,
+    at: [f64; 2],
+    without: Option<LatticeSite>,
+) -> Option<Predicted> {
     let centre = [at[0].round() as i32, at[1].round() as i32];
     let mut normal = SMatrix::<f64, 6, 6>::zeros();
     let mut right = SMatrix::<f64, 6, 2>::zeros();
@@ -105,13 +109,14 @@ mod tests {
             [300.0 + (40.0 * x + 6.0 * y) / w, 200.0 + (-4.0 * x + 30.0 * y) / w]
         };
         let dots = (0..5).flat_map(|p| (0..5).map(move |q| [p, q]));
-        let dots: BTreeMap<Site, [f64; 2]> = dots.map(|s| (s, image(f64::from(s[0]), f64::from(s[1])))).collect();
+        let dots: BTreeMap<LatticeSite, [f64; 2]> =
+            dots.map(|s| (s, image(f64::from(s[0]), f64::from(s[1])))).collect();
         let beside = predict(&dots, [5.0, 2.0], None).expect("dots around");
         let truth = image(5.0, 2.0);
         let error = (beside.place[0] - truth[0]).hypot(beside.place[1] - truth[1]);
         assert!(error < 0.06 * beside.shortest_px && error < 3.0 * beside.sigma_px, "{error} {beside:?}");
-        // a line of dots says nothing of what is beside it
-        let line: BTreeMap<Site, [f64; 2]> = (0..5).map(|p| ([p, 0], image(f64::from(p), 0.0))).collect();
+        // a line of dots gives no information on what is beside it
+        let line: BTreeMap<LatticeSite, [f64; 2]> = (0..5).map(|p| ([p, 0], image(f64::from(p), 0.0))).collect();
         assert!(predict(&line, [2.0, 1.0], None).is_none());
     }
 

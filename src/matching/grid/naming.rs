@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::{PhotoTargets, observed};
 use super::board::Board;
 use super::outcome::{GridNaming, GridOptions, GridOrientation, NamedGrid, Unnamed};
-use super::reading::{Reading, read};
+use super::reading::{BoardReading, read};
 use crate::detection::Target;
 use crate::error::Result;
 use crate::project::Project;
@@ -48,7 +48,7 @@ pub fn name_grid(
         })
         .collect();
     let mut naming = GridNaming::default();
-    let mut readings: Vec<(&PhotoTargets, Reading)> = Vec::new();
+    let mut readings: Vec<(&PhotoTargets, BoardReading)> = Vec::new();
     for photo in photos {
         match read(&photo.targets, sizes.get(photo.photo.as_str()).copied(), board) {
             Ok(reading) => readings.push((photo, reading)),
@@ -95,15 +95,15 @@ pub fn name_grid(
 }
 
 /// The way to name each photo's dots.
-fn turns(readings: &[(&PhotoTargets, Reading)], options: &GridOptions) -> Vec<(usize, GridOrientation)> {
-    let given = |(photo, reading): &(&PhotoTargets, Reading)| {
+fn turns(readings: &[(&PhotoTargets, BoardReading)], options: &GridOptions) -> Vec<(usize, GridOrientation)> {
+    let given = |(photo, reading): &(&PhotoTargets, BoardReading)| {
         let at = options.first.get(&photo.photo).filter(|at| at.iter().all(|x| x.is_finite()))?;
         let distance = |way: &usize| reading.first[*way].map_or(f64::INFINITY, |f| (f[0] - at[0]).hypot(f[1] - at[1]));
         (0..reading.ways.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     };
-    let turned = |r: &&(&PhotoTargets, Reading)| r.1.ways.len() > 1;
+    let turned = |r: &&(&PhotoTargets, BoardReading)| r.1.ways.len() > 1;
     let elsewhere = readings.iter().filter(turned).find_map(given);
-    let choice = |r: &(&PhotoTargets, Reading)| match (r.1.ways.len(), given(r), elsewhere) {
+    let choice = |r: &(&PhotoTargets, BoardReading)| match (r.1.ways.len(), given(r), elsewhere) {
         (1, ..) if r.1.marked => (0, GridOrientation::Mark),
         (0 | 1, ..) => (0, GridOrientation::Unique),
         (ways, Some(way), _) | (ways, None, Some(way)) => (way % ways, GridOrientation::Given),
@@ -117,7 +117,7 @@ fn turns(readings: &[(&PhotoTargets, Reading)], options: &GridOptions) -> Vec<(u
 fn prefix(
     project: &Project,
     board: &Board,
-    readings: &[(&PhotoTargets, Reading)],
+    readings: &[(&PhotoTargets, BoardReading)],
     chosen: &[(usize, GridOrientation)],
 ) -> String {
     let points: BTreeMap<&str, Option<[f64; 3]>> = project.points.iter().map(|p| (p.id.as_str(), p.xyz)).collect();

@@ -27,7 +27,7 @@ pub enum GridOrientation {
     Mark,
     /// [`GridOptions::first`] decides, in this photo or in another one.
     Given,
-    /// The board looks the same when turned, and nothing says which corner is the first: that turn is taken whose rows run to the right
+    /// The board looks the same when turned, and the first corner is unknown: that turn is taken whose rows run to the right
     /// as nearly as they can. Right if the camera was held the same way up in all photos.
     Assumed,
 }
@@ -47,7 +47,7 @@ pub struct NamedGrid {
     pub orientation: GridOrientation,
     /// Turns under which the board looks the same, this one included; 1 where the dots decide.
     pub turns: usize,
-    /// Whether the place on the board was told by ground without dots beside it; false: the dots themselves have it.
+    /// Whether the position on the board was found from background without dots beside it; false: from the dots themselves.
     pub by_border: bool,
 }
 
@@ -65,7 +65,7 @@ pub enum UnnamedReason {
         /// Dots of the largest grid.
         dots: usize,
     },
-    /// The visible part does not tell where on the board it is.
+    /// The visible part fits the board at several positions.
     Ambiguous {
         /// Dots of the grid.
         dots: usize,
@@ -85,7 +85,7 @@ pub enum UnnamedReason {
         /// Other dots of their size.
         others: usize,
     },
-    /// The mark that tells the first corner is not seen, or something is seen in several of its places.
+    /// The mark at the first corner is not visible, or targets are visible at several of its possible positions.
     Mark {
         /// Places of the mark where a target is seen.
         seen: usize,
@@ -149,7 +149,7 @@ pub struct Unnamed {
 /// Result of [`name_grid`](super::name_grid).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridNaming {
-    /// What the names begin with: empty, or "b2-", "b3-" … where the project has other points of these names.
+    /// Prefix of the names: empty, or "b2-", "b3-" … where the project has other points of these names.
     pub prefix: String,
     /// Dots seen in a photo that the project has no point for, row by row.
     pub points: Vec<Point>,

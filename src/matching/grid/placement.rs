@@ -1,12 +1,12 @@
 //! Where on the board a lattice lies: every quarter turn, every shift, and every basis that its steps may be.
 //!
 //! A photo is never mirrored, so that steps of the lattice become steps of the board by integer matrices of determinant +1. One placement
-//! is taken only if each other one leaves clearly more dots beside the board, or clearly more sites of the board empty where the photo
+//! is taken only if each other one leaves clearly more dots beside the board, or clearly more sites of the board empty if the photo
 //! shows its ground.
 
 use std::collections::BTreeMap;
 
-use super::board::{Board, Site};
+use super::board::{Board, LatticeSite};
 use super::growth::{Lattice, Pool};
 use crate::initial::robust::quantile;
 
@@ -14,27 +14,27 @@ use crate::initial::robust::quantile;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Placement {
     pub turn: [[i32; 2]; 2],
-    pub shift: Site,
+    pub shift: LatticeSite,
 }
 
 /// Largest number in a change of basis: steep views make a sheared basis the shortest.
 const SHEAR: i32 = 2;
-/// Largest median difference between the shapes of the dots and those that a placement asks for, as the logarithm of a ratio of axes.
+/// Largest median difference between the shapes of the dots and those of a placement, as the logarithm of a ratio of axes.
 /// A basis sheared by one step is at 0.96.
 const SHAPE: f64 = 0.45;
 /// Dots that may stand beside the board: false ones that happen to continue it. As a number, and as a share.
 const BESIDE: usize = 2;
 const BESIDE_SHARE: f64 = 0.03;
-/// Dots that have to speak against a placement.
+/// Minimum number of dots that contradict a placement.
 const AGAINST: usize = 4;
 /// Steps beside a dot within which an empty site counts.
 const RING: i32 = 2;
-/// Axes of the dots, in pixels and as a ratio, below which an empty site says nothing: the detector may have passed it over.
+/// Axes of the dots, in pixels and as a ratio, below which an empty site is not evidence: the detector may have missed the dot.
 const VISIBLE_PX: f64 = 6.5;
 const VISIBLE_RATIO: f64 = 0.35;
 
 impl Placement {
-    pub fn of(&self, [p, q]: Site) -> Site {
+    pub fn of(&self, [p, q]: LatticeSite) -> LatticeSite {
         let [[a, b], [c, d]] = self.turn;
         [a * p + b * q + self.shift[0], c * p + d * q + self.shift[1]]
     }
@@ -60,7 +60,8 @@ const TURNS: [[[i32; 2]; 2]; 4] = [[[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0]
 pub(super) fn symmetries(board: &Board) -> Vec<Placement> {
     let corner = |turn: &[[i32; 2]; 2]| {
         let turned = Placement { turn: *turn, shift: [0, 0] };
-        let low = |k: usize, of: &dyn Fn(Site) -> Site| board.sites().map(|s| of(s)[k]).min().unwrap_or(0);
+        let low =
+            |k: usize, of: &dyn Fn(LatticeSite) -> LatticeSite| board.sites().map(|s| of(s)[k]).min().unwrap_or(0);
         let shift = [0, 1].map(|k| low(k, &|s| s) - low(k, &|s| turned.of(s)));
         Placement { turn: *turn, shift }
     };
@@ -68,10 +69,10 @@ pub(super) fn symmetries(board: &Board) -> Vec<Placement> {
     TURNS.iter().map(corner).filter(onto).collect()
 }
 
-/// What the empty sites around a lattice say: true where the photo would show a dot.
-pub(super) fn ground(lattice: &Lattice, pool: &Pool, size: Option<[u32; 2]>) -> BTreeMap<Site, bool> {
+/// Whether the photo would show a dot at an empty site around a lattice.
+pub(super) fn ground(lattice: &Lattice, pool: &Pool, size: Option<[u32; 2]>) -> BTreeMap<LatticeSite, bool> {
     let Some(size) = size else { return BTreeMap::new() };
-    let shown = |site: &Site| {
+    let shown = |site: &LatticeSite| {
         let (p, dot) = (lattice.predicted(*site)?, &pool.targets[lattice.nearest(*site)?]);
         let margin = 1.2 * dot.major + 2.0 * p.sigma_px + 2.0;
         let inside = (0..2).all(|k| p.place[k] > margin && p.place[k] < f64::from(size[k]) - margin);
@@ -81,7 +82,7 @@ pub(super) fn ground(lattice: &Lattice, pool: &Pool, size: Option<[u32; 2]>) -> 
     lattice.open(RING).into_iter().map(|site| (site, shown(&site).unwrap_or(false))).collect()
 }
 
-/// What became of a lattice.
+/// Result of placing a lattice on the board.
 #[derive(Clone, Debug)]
 pub(super) enum Placed {
     /// The board has no part like it.
@@ -93,11 +94,11 @@ pub(super) enum Placed {
 }
 
 /// Places a lattice on the board.
-pub(super) fn place(lattice: &Lattice, pool: &Pool, board: &Board, ground: &BTreeMap<Site, bool>) -> Placed {
+pub(super) fn place(lattice: &Lattice, pool: &Pool, board: &Board, ground: &BTreeMap<LatticeSite, bool>) -> Placed {
     let candidates = candidates(lattice, pool, board);
     let beside = |p: &Placement| lattice.dots.keys().filter(|s| board.dot(p.of(**s)).is_none()).count();
-    let on = |p: &Placement, s: &Site| board.dot(p.of(*s)).is_some();
-    let shown: Vec<&Site> = ground.iter().filter(|(_, shown)| **shown).map(|(site, _)| site).collect();
+    let on = |p: &Placement, s: &LatticeSite| board.dot(p.of(*s)).is_some();
+    let shown: Vec<&LatticeSite> = ground.iter().filter(|(_, shown)| **shown).map(|(site, _)| site).collect();
     let cost = |p: &Placement| beside(p) + shown.iter().filter(|s| on(p, s)).count();
     let Some(best) = candidates.iter().min_by_key(|p| cost(p)) else { return Placed::NotThisBoard };
     let symmetries = symmetries(board);
@@ -132,14 +133,14 @@ pub(super) fn place(lattice: &Lattice, pool: &Pool, board: &Board, ground: &BTre
 /// The placements that leave hardly a dot beside the board.
 fn candidates(lattice: &Lattice, pool: &Pool, board: &Board) -> Vec<Placement> {
     let allowed = BESIDE.max((BESIDE_SHARE * lattice.dots.len() as f64) as usize);
-    let bounds = |sites: &mut dyn Iterator<Item = Site>| {
+    let bounds = |sites: &mut dyn Iterator<Item = LatticeSite>| {
         sites.fold([[i32::MAX, i32::MIN]; 2], |b, s| [0, 1].map(|k| [b[k][0].min(s[k]), b[k][1].max(s[k])]))
     };
     let own = bounds(&mut board.sites());
     let mut found = Vec::new();
     for turn in turns(lattice, pool) {
         let turned = Placement { turn, shift: [0, 0] };
-        let sites: Vec<Site> = lattice.dots.keys().map(|s| turned.of(*s)).collect();
+        let sites: Vec<LatticeSite> = lattice.dots.keys().map(|s| turned.of(*s)).collect();
         let of = bounds(&mut sites.iter().copied());
         let range = |k: usize| {
             let (a, b) = (own[k][0] - of[k][0], own[k][1] - of[k][1]);
@@ -161,7 +162,7 @@ fn candidates(lattice: &Lattice, pool: &Pool, board: &Board) -> Vec<Placement> {
     found
 }
 
-/// The changes of basis under which the dots are images of circles; all of them where the targets' axes say nothing.
+/// The changes of basis under which the dots are images of circles; all of them if the targets' axes do not decide.
 fn turns(lattice: &Lattice, pool: &Pool) -> Vec<[[i32; 2]; 2]> {
     let range = || -SHEAR..=SHEAR;
     let all = range()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::board::{Board, Site};
+use super::board::{Board, LatticeSite};
 use super::growth::{FEWEST, Lattice, Pool, size};
 use super::local::predict;
 use super::outcome::UnnamedReason;
@@ -23,27 +23,27 @@ const MARK: f64 = 0.35;
 
 /// The dots of a photo, with all ways to name them that the board's symmetry leaves.
 #[derive(Debug)]
-pub(super) struct Reading {
+pub(super) struct BoardReading {
     /// Target by row and column for each way; the upright one first, then by turns of the board.
     pub ways: Vec<BTreeMap<[u32; 2], usize>>,
     /// Places of the first dot in each way, where it can be predicted or is seen.
     pub first: Vec<Option<[f64; 2]>>,
     /// The way that the mark shows.
     pub marked: bool,
-    /// Whether the place was told by ground without dots.
+    /// Whether the position was found from background without dots.
     pub by_border: bool,
 }
 
-struct Candidate<'a> {
+struct PlacedLattice<'a> {
     lattice: Lattice,
     pool: &'a Pool<'a>,
     /// Diameter of a dot in steps.
     ratio: f64,
-    ground: BTreeMap<Site, bool>,
+    ground: BTreeMap<LatticeSite, bool>,
     placed: Placed,
 }
 
-impl Candidate<'_> {
+impl PlacedLattice<'_> {
     /// Whether most of the board is seen, and ground without dots beside each of its sides: a larger grid that the photo cuts to the
     /// board's size has none on one of them.
     fn ends(&self, placement: &Placement, board: &Board) -> bool {
@@ -69,26 +69,30 @@ impl Candidate<'_> {
 }
 
 /// Finds the board among the targets of a photo of `size` pixels.
-pub(super) fn read(targets: &[Target], photo_size: Option<[u32; 2]>, board: &Board) -> Result<Reading, UnnamedReason> {
+pub(super) fn read(
+    targets: &[Target],
+    photo_size: Option<[u32; 2]>,
+    board: &Board,
+) -> Result<BoardReading, UnnamedReason> {
     let of = |polarity: Polarity| {
         let mine = move |k: &usize| targets[*k].polarity == polarity && targets[*k].code.is_none();
         Pool::new(targets, (0..targets.len()).filter(mine))
     };
     let pools = [of(Polarity::Dark), of(Polarity::Bright)];
-    let mut candidates: Vec<Candidate> = Vec::new();
+    let mut candidates: Vec<PlacedLattice> = Vec::new();
     for pool in &pools {
         for lattice in pool.lattices() {
             let ground = ground(&lattice, pool, photo_size);
             let placed = place(&lattice, pool, board, &ground);
-            candidates.push(Candidate { ratio: ratio(&lattice, pool), lattice, pool, ground, placed });
+            candidates.push(PlacedLattice { ratio: ratio(&lattice, pool), lattice, pool, ground, placed });
         }
     }
     candidates.sort_by_key(|c| std::cmp::Reverse(c.lattice.dots.len()));
     let Some(largest) = candidates.first() else { return Err(UnnamedReason::NoGrid { targets: targets.len() }) };
     let dots = largest.lattice.dots.len();
     if let Some(given) = board.diameter {
-        let seen = |c: &Candidate| c.ratio * board.pitch * board.step();
-        let fits = |c: &Candidate| seen(c) < DIAMETER * given && given < DIAMETER * seen(c);
+        let seen = |c: &PlacedLattice| c.ratio * board.pitch * board.step();
+        let fits = |c: &PlacedLattice| seen(c) < DIAMETER * given && given < DIAMETER * seen(c);
         let largest = seen(largest);
         candidates.retain(fits);
         if candidates.is_empty() {
@@ -98,8 +102,8 @@ pub(super) fn read(targets: &[Target], photo_size: Option<[u32; 2]>, board: &Boa
     decide(&candidates, dots, board)
 }
 
-fn decide(candidates: &[Candidate], dots: usize, board: &Board) -> Result<Reading, UnnamedReason> {
-    let there: Vec<&Candidate> = candidates.iter().filter(|c| matches!(c.placed, Placed::There(..))).collect();
+fn decide(candidates: &[PlacedLattice], dots: usize, board: &Board) -> Result<BoardReading, UnnamedReason> {
+    let there: Vec<&PlacedLattice> = candidates.iter().filter(|c| matches!(c.placed, Placed::There(..))).collect();
     let ambiguous = candidates.iter().find_map(|c| match c.placed {
         Placed::Ambiguous(places) => Some(UnnamedReason::Ambiguous { dots: c.lattice.dots.len(), places }),
         _ => None,
@@ -124,7 +128,7 @@ fn decide(candidates: &[Candidate], dots: usize, board: &Board) -> Result<Readin
         return Err(UnnamedReason::OtherDots { dots: candidate.lattice.dots.len(), others });
     }
     // where something crosses the board, what lies beyond is a lattice of its own, and the gap is no end of the board
-    let similar = |c: &&Candidate| c.ratio < DIAMETERS * candidate.ratio && candidate.ratio < DIAMETERS * c.ratio;
+    let similar = |c: &&PlacedLattice| c.ratio < DIAMETERS * candidate.ratio && candidate.ratio < DIAMETERS * c.ratio;
     let pieces = candidates.iter().filter(similar).count();
     if by_border && pieces > 1 {
         return Err(UnnamedReason::SeveralBoards { count: pieces });
@@ -132,8 +136,13 @@ fn decide(candidates: &[Candidate], dots: usize, board: &Board) -> Result<Readin
     reading(candidate, &placement, by_border, board)
 }
 
-fn reading(found: &Candidate, placement: &Placement, by_border: bool, board: &Board) -> Result<Reading, UnnamedReason> {
-    let Candidate { lattice, pool, .. } = found;
+fn reading(
+    found: &PlacedLattice,
+    placement: &Placement,
+    by_border: bool,
+    board: &Board,
+) -> Result<BoardReading, UnnamedReason> {
+    let PlacedLattice { lattice, pool, .. } = found;
     let mut placements: Vec<Placement> = symmetries(board).iter().map(|g| placement.then(g)).collect();
     // the upright one first, the others in the order of the board's turns from it
     let rightwards = |p: &Placement| rightwards(lattice, p, board);
@@ -162,7 +171,7 @@ fn reading(found: &Candidate, placement: &Placement, by_border: bool, board: &Bo
     if ways[0].len() < FEWEST {
         return Err(UnnamedReason::NotThisBoard { dots: lattice.dots.len() });
     }
-    Ok(Reading { ways, first: placements.iter().map(first).collect(), marked, by_border })
+    Ok(BoardReading { ways, first: placements.iter().map(first).collect(), marked, by_border })
 }
 
 /// Cosine of the angle between the photo's u and the rows of the board, on average.

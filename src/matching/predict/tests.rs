@@ -206,7 +206,7 @@ fn what_is_off_is_told_and_what_fits_is_offered() {
     assert!(matches!(predict(&p, None, "q", &PredictOptions::default()), Err(Error::Unknown { .. })));
 }
 
-/// Photos from one place, and a point behind a camera, give nothing that is no number.
+/// Photos from one place, and a point behind a camera, give only finite numbers.
 #[test]
 fn what_cannot_be_predicted_is_left_out() {
     let mut p = project();

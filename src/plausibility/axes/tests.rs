@@ -11,7 +11,7 @@ const SIZE: f64 = 10.0;
 const SIGMA: f64 = 0.002;
 
 struct Scene {
-    pairs: Vec<Pair>,
+    pairs: Vec<PointPair>,
     poses: Vec<Pose>,
 }
 
@@ -19,7 +19,7 @@ struct Scene {
 /// is turned, scaled and noisy. `wrong` points are moved by decimetres.
 fn scene(seed: u64, relief: f64, upright: bool, wrong: usize) -> Scene {
     let mut noise = Noise::new(seed, 0);
-    // A single wrong point of four or five cannot be told from a reflection of one that is right.
+    // A single wrong point of four or five cannot be distinguished from a reflection of one that is right.
     let count = 4 + (seed % 9) as usize + 4 * wrong;
     let mut random = || (0..3).map(|_| noise.normal()).collect::<Vec<f64>>();
     let mut depth: Vec<f64> = Vec::new();
@@ -51,12 +51,12 @@ fn scene(seed: u64, relief: f64, upright: bool, wrong: usize) -> Scene {
     };
     let turn = object_to_camera([random()[0], random()[1], random()[2]]);
     let origin = Vector3::new(200_000.0, 450_000.0, 40.0);
-    let mut pairs: Vec<Pair> = Vec::new();
+    let mut pairs: Vec<PointPair> = Vec::new();
     for (p, d) in flat.iter().zip(&left) {
         let local = axes[0] * p[0] + axes[1] * p[1] + axes[2] * (d / rms * relief * SIGMA);
         let free = turn * (local + 0.3 * SIGMA * Vector3::from_vec(random())) / 7.0;
         let given = origin + local + SIGMA * Vector3::from_vec(random());
-        pairs.push(Pair { free, given, free_sigma: 0.3 * SIGMA / 7.0, given_sigma: SIGMA });
+        pairs.push(PointPair { free, given, free_sigma: 0.3 * SIGMA / 7.0, given_sigma: SIGMA });
     }
     for k in 0..wrong {
         let r = random();

@@ -31,7 +31,7 @@ fn shot(seed: u64, count: usize, c: f64) -> (Vec<Vector3<f64>>, Vec<[f64; 2]>) {
 fn what_was_done_to_a_photo_is_found_and_nothing_is_found_in_others() {
     let camera = Camera::new("k", 4000, 3000, Interior::brown(4000.0));
     let judged = |object: Vec<Vector3<f64>>, pixels: Vec<[f64; 2]>| {
-        misframed(&Seen { object, pixels, camera: &camera, limit_px: 1.5 })
+        misframed(&PhotoPoints { object, pixels, camera: &camera, limit_px: 1.5 })
     };
     for seed in 0..4 {
         let count = 12 + (seed % 2) as usize * 6;

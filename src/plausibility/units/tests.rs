@@ -60,7 +60,7 @@ fn lengths_of_one_unit_are_never_asked_about() {
             project.points.iter_mut().for_each(|p| p.diameter = Some(20.0));
         }
         assert_eq!(of_lengths(&project), [], "seed {seed}");
-        // A typing error is no unit.
+        // A misspelt unit is not accepted.
         project.distances[0].length *= [1.5, 2.0, 7.0, 0.6][(seed % 4) as usize];
         assert!(of_lengths(&project).is_empty() || project.distances.len() == 1, "seed {seed}");
     }
@@ -91,7 +91,7 @@ fn control_in_metres_against_distances_in_millimetres_is_the_control() {
         project.photos.iter_mut().for_each(|p| p.position = p.position.map(metres));
         let [found] = &of_lengths(&project)[..] else { panic!("seed {seed}") };
         assert_eq!((found.of, found.nearest), (UnitOf::Control, 0.001), "seed {seed}: {found:?}");
-        // Without distances, the diameters of the targets tell.
+        // Without distances, the diameters of the targets decide.
         project.distances.clear();
         assert_eq!(of_lengths(&project), []);
         project.points.iter_mut().for_each(|p| p.diameter = Some(15.0));
@@ -101,7 +101,7 @@ fn control_in_metres_against_distances_in_millimetres_is_the_control() {
 }
 
 #[test]
-fn ratios_of_units_are_told_from_others() {
+fn ratios_of_units_are_distinguished_from_others() {
     for (ratio, wanted) in [(1010.0, Some(1000.0)), (25.0, Some(25.4)), (1.0, None), (2.0, None), (12.1, Some(12.0))] {
         let found = nearest(ratio, MEASURED);
         assert_eq!(found.is_some(), wanted.is_some(), "{ratio}");

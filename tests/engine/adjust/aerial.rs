@@ -3,11 +3,11 @@
 use crate::support::data;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace};
-use sightline::exchange::{self, photomodeler};
 use sightline::orient::orient;
 use sightline::project::{DatumKind, Project, Role, Sigma};
+use sightline_exchange::{self as exchange, photomodeler};
 
-/// What the exports' local coordinates have been reduced by.
+/// Origin to which the local coordinates of the exports are reduced.
 const OFFSET: [f64; 3] = [999_779.506_31, 112_260.591, 139.832_1];
 
 fn solve(project: &Project) -> Adjustment {

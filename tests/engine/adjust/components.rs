@@ -6,7 +6,7 @@ use sightline::adjustment::{
 };
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project, ReportLanguage, Sigma};
-use sightline::report::report;
+use sightline_report::report;
 
 use crate::support::extent;
 use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, AdjustedPoint, Adjustment};
 use sightline::camera::pixel_from_camera_point;
-use sightline::eccentricity::{Circle, pixels};
+use sightline::eccentricity::{TargetCircle, pixels};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Observation, Parameter, Photo, Point, Project, Sigma};
 use sightline::rotation;
@@ -77,7 +77,7 @@ fn cloud(count: usize) -> Targets {
 }
 
 /// Twelve photos around and above; a target is seen under less than 70 degrees. The eccentricity moves targets along their normals:
-/// eight points around, which are no targets, carry the datum, so that this is not taken for a change of scale.
+/// eight points around, which are no targets, define the datum, so that this is not taken for a change of scale.
 fn seen(targets: &Targets, seed: u64) -> Project {
     let mut project =
         Project { cameras: vec![brown(&[Parameter::C, Parameter::X0, Parameter::Y0])], ..Project::default() };
@@ -110,7 +110,7 @@ fn seen(targets: &Targets, seed: u64) -> Project {
             if (centre - place).normalize().dot(normal) < 0.34 {
                 continue;
             }
-            let circle = Circle { centre: m * (place - centre), normal: m * normal, diameter: DIAMETER };
+            let circle = TargetCircle { centre: m * (place - centre), normal: m * normal, diameter: DIAMETER };
             let camera = &project.cameras[0];
             let [u, v] = pixel_from_camera_point(camera, circle.centre).expect("in front");
             let [du, dv] = pixels(camera, &circle).expect("seen");

@@ -7,14 +7,14 @@ use crate::support::tree::{damage, is_finite};
 use serde_json::{Value, json};
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Robust, StatisticsChoice};
-use sightline::exchange::import;
-use sightline::exchange::package::{self, Package};
 use sightline::limits;
-use sightline::network::{self, Network, NetworkPoint, Station};
 use sightline::noise::Noise;
-use sightline::plan::{faces_on, targets_on};
 use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Project, Sigma};
-use sightline::sheets::{Field, SheetOptions, target_sheets};
+use sightline_exchange::import;
+use sightline_exchange::package::{self, Package};
+use sightline_plan::network::{self, Network, NetworkPoint, Station};
+use sightline_plan::{faces_on, targets_on};
+use sightline_report::sheets::{Field, SheetOptions, target_sheets};
 
 /// Iterations of one of these documents before it counts as endless: every round of a search for gross errors has some.
 const MOST_ITERATIONS: usize = 5000;
@@ -87,7 +87,7 @@ fn damaged_json_gives_a_result_or_an_error() {
     assert!(results > 150 && errors > 100 && refused > 100, "{results} results, {errors} errors, {refused} refused");
 }
 
-/// Principal distances and standard errors next to nothing: what a standard error should be is not told as infinite then.
+/// Principal distances and standard errors next to nothing: what a standard error should be is not reported as infinite then.
 #[test]
 fn numbers_too_small_to_compute_with_make_no_infinite_ones() {
     let wanted = Wanted { photos: 4, points: 9, distances: (1, 0.1), cameras: vec![brown(&[])], ..Wanted::default() };

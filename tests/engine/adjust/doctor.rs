@@ -1,4 +1,4 @@
-//! The doctor: every rank defect is told in the network's own words with its cure, every weakness of a solvable network is
+//! The doctor: every rank defect is reported with the photos, points or parameters concerned and a remedy, every weakness of a solvable network is
 //! named, and a sound network has none.
 
 use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};
@@ -15,7 +15,7 @@ fn run(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }
 
-/// The defects, and the sentence that tells them.
+/// The defects, and the sentence that reports them.
 fn defects(project: &Project) -> (Vec<Defect>, String) {
     match adjust(project, &AdjustOptions::default(), &mut |_| true) {
         Err(error @ Error::RankDefect { .. }) => {
@@ -84,7 +84,7 @@ fn points_and_photos_with_too_little_are_named() {
 
 #[test]
 fn rays_in_one_line_determine_no_point() {
-    // Both photos that see p7 stand in one line with it.
+    // Both photos that show p7 are on a line with it.
     let mut project = exact(&Wanted { cameras: vec![brown(&[])], ..Wanted::default() }, 17);
     let point = Vector3::from(project.points[7].xyz.expect("known"));
     let first = Vector3::from(project.photos[0].position.expect("known"));

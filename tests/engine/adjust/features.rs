@@ -451,9 +451,9 @@ fn deviations_are_drawn_where_the_points_lie_on_the_form_laid_flat() {
         feature("E", FeatureKind::Distance { from: End::Point("p0".into()), to: End::Point("p1".into()) }),
     ];
     let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true).expect("adjusts");
-    let plots = sightline::report::plots::plots(&project, Some(&adjustment)).expect("plots");
+    let plots = sightline_report::plots::plots(&project, Some(&adjustment)).expect("plots");
     let of = |id: &str| {
-        let name = sightline::report::plots::deviations_name(id);
+        let name = sightline_report::plots::deviations_name(id);
         plots.iter().find(|plot| plot.name == name).map(|plot| plot.svg.as_str())
     };
     assert!(of("E").is_none(), "a distance has no deviations");

@@ -3,7 +3,9 @@
 
 use crate::support::networks::{Wanted, brown, exact, noisy, opencv};
 use nalgebra::{DMatrix, DVector, Vector3};
-use sightline::adjust::{LinearSystem, UnknownKind, adjust, apply, linearise, normal_equations, start_adjustment};
+use sightline::adjust::{
+    Elimination, LinearSystem, UnknownKind, adjust, apply, linearise, normal_equations, start_adjustment,
+};
 use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
@@ -155,6 +157,53 @@ fn the_normal_equations_are_those_of_dense_matrices() {
 }
 
 #[test]
+fn the_cholesky_factor_is_that_of_the_normal_matrix_in_either_order() {
+    let options = AdjustOptions::default();
+    for project in networks() {
+        let normal = normal_equations(&project, &options).expect("a sound document");
+        let n = normal.n.dense();
+        let size: Vec<f64> = (0..n.nrows()).map(|k| n[(k, k)].sqrt()).collect();
+        let counts = [normal.fill_in.factor, normal.fill_in.factor_photos_first];
+        for (order, most) in [Elimination::PointsFirst, Elimination::PhotosFirst].into_iter().zip(counts) {
+            let factor = normal.cholesky_factor(order).expect("regular but for the datum");
+            assert_eq!(factor.held.len(), normal.null_space.len());
+            assert!(factor.l.values.len() <= most && factor.l.values.len() == factor.filled.len());
+            let l = factor.l.dense();
+            let product = &l * l.transpose();
+            for (i, row) in factor.order.iter().enumerate() {
+                assert!(l.row(i).iter().skip(i + 1).all(|x| *x == 0.0));
+                for (j, column) in factor.order.iter().enumerate() {
+                    let held = factor.held.contains(row) || factor.held.contains(column);
+                    let wanted = if held { f64::from(u8::from(i == j)) } else { n[(*row, *column)] };
+                    let scale = if held { 1.0 } else { size[*row] * size[*column] };
+                    assert!((product[(i, j)] - wanted).abs() <= 1e-12 * scale, "{order:?} {row} {column}");
+                }
+                let of_row = factor.l.row_starts[i]..factor.l.row_starts[i + 1];
+                for (entry, filled) in factor.l.row(i).zip(&factor.filled[of_row]) {
+                    assert_eq!(*filled, n[(*row, factor.order[entry.0])] == 0.0 && entry.0 != i);
+                }
+            }
+        }
+        // With the points first the factor ends with that of S.
+        if normal.null_space.is_empty() {
+            let factor = normal.cholesky_factor(Elimination::PointsFirst).expect("regular");
+            let kept = normal.reduced.unknowns.len();
+            let first = n.nrows() - kept;
+            let place = |k: usize| normal.reduced.unknowns.binary_search(&factor.order[first + k]).expect("of S");
+            let s = normal.reduced.s.dense();
+            let l = factor.l.dense().view((first, first), (kept, kept)).into_owned();
+            let product = &l * l.transpose();
+            for i in 0..kept {
+                for j in 0..kept {
+                    let scale = size[factor.order[first + i]] * size[factor.order[first + j]];
+                    assert!((product[(i, j)] - s[(place(i), place(j))]).abs() <= 1e-11 * scale);
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn steps_are_those_of_the_adjustment() {
     let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
     for project in networks() {
@@ -197,5 +246,30 @@ fn steps_are_those_of_the_adjustment() {
             adjuster.back();
         }
         assert_eq!(adjuster.state(), &first);
+    }
+}
+
+#[test]
+fn numbers_of_a_step_are_those_of_its_equations() {
+    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    for project in networks() {
+        let mut adjuster = start_adjustment(&project, &options).expect("a sound document");
+        let mut twin = adjuster.clone();
+        while adjuster.state().termination.is_none() {
+            twin.step().expect("a step");
+            let (system, normal) = adjuster.step_with_numbers().expect("a step");
+            assert_eq!(adjuster.state(), twin.state());
+            let (all, whole) = twin.equations().expect("equations");
+            assert_eq!((&system.a, &system.l, &system.p), (&all.a, &all.l, &all.p));
+            assert_eq!((&system.constraints, system.redundancy), (&all.constraints, all.redundancy));
+            let values = |system: &LinearSystem| system.observations.iter().map(|row| row.value).collect::<Vec<_>>();
+            assert_eq!(values(&system), values(&all));
+            assert_eq!((&normal.n, &normal.b, &normal.reduced), (&whole.n, &whole.b, &whole.reduced));
+            assert_eq!((&normal.null_space, normal.rank), (&whole.null_space, whole.rank));
+            assert!(system.unknowns.iter().all(|unknown| unknown.name.is_empty()));
+        }
+        // Nothing changes after the last step.
+        let (system, _) = adjuster.step_with_numbers().expect("a step");
+        assert_eq!((adjuster.state(), &system.a), (twin.state(), &twin.linear_system().expect("equations").a));
     }
 }

@@ -2,9 +2,9 @@
 
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Termination};
-use sightline::network::{Network, NetworkPoint, Station, simulate};
 use sightline::orient::orient;
 use sightline::project::{Camera, CameraModel, DatumKind, Interior, Parameter, Project, Sigma};
+use sightline_plan::network::{Network, NetworkPoint, Station, simulate};
 
 pub fn interior(model: &str) -> Interior {
     let (fx, fy, cx, cy) = (Some(640.0), Some(643.0), 645.0, 352.0);
@@ -45,7 +45,7 @@ pub fn interior(model: &str) -> Interior {
     }
 }
 
-/// What is estimated: all that stands by itself. The fourth to sixth coefficient of the rational model stand in for the first three.
+/// What is estimated: all that stands by itself. The fourth to sixth coefficient of the rational model are nearly equivalent to the first three.
 fn estimated(model: &CameraModel) -> Vec<Parameter> {
     let held = [Parameter::F, Parameter::K5, Parameter::K6];
     model.parameters.iter().copied().filter(|p| !held.contains(p)).collect()

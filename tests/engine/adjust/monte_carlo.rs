@@ -12,7 +12,7 @@ use statrs::distribution::{Binomial, DiscreteCDF};
 
 const COPIES: usize = 1000;
 
-/// Test values of observations of every kind, image coordinates first; none where nothing checks the observation.
+/// Test values of observations of every kind, image coordinates first; `None` if nothing checks the observation.
 fn test_values(adjustment: &Adjustment) -> Vec<Option<f64>> {
     let given = adjustment.given.iter().map(|g| g.reliability.expect("full").w);
     adjustment.observations.iter().flat_map(|o| [o.wx, o.wy]).chain(given).collect()

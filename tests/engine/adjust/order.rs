@@ -11,7 +11,7 @@ use sightline::project::{Camera, DatumKind, Feature, FeatureKind, Parameter, Pro
 use crate::support::extent;
 use crate::support::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
 
-/// What differs by less is the same figure reckoned in another order.
+/// Smaller differences are due to the order of the computation.
 const SAME: f64 = 1e-6;
 
 fn whole(random: &mut Uniform, low: usize, high: usize) -> usize {

@@ -1,9 +1,9 @@
-//! DBAT's own reports of the camera calibration, to their printed digits: sigma0, redundancy, the camera and all photos.
+//! Comparison with DBAT's reports of its camera calibration, to their printed digits: sigma0, redundancy, the camera and all photos.
 //!
-//! Model 1 is ours: the correction of the measurement, without affinity. The forward model distorts the ideal image in millimetres:
+//! Model 1 is our Brown model: it corrects the measured point, without affinity. The forward model distorts the ideal point in millimetres:
 //! x + x(K1 r² + …) with the printed signs reversed, which is the opencv model with fx = fy, k1 = -K1 c², k2 = -K2 c⁴,
-//! k3 = -K3 c⁶, p2 = -P1 c and p1 = P2 c (y points the other way). Model 3 is ours with its affinity taken from the report,
-//! put into the pixel pitch.
+//! k3 = -K3 c⁶, p2 = -P1 c and p1 = P2 c (y points the other way). Model 3 is our model with the affinity of the report applied to the
+//! pixel pitch.
 
 use super::published::{DISTORTED, HEIGHT_MM, camcal};
 use crate::support::data;
@@ -11,7 +11,7 @@ use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
 use sightline::project::{Interior, Parameter, Project, Sigma};
 
-/// A printed number: value, half a unit of its last digit, standard deviation (0 where it is held).
+/// A printed number: value, half a unit of its last digit, standard error (0 if it is held).
 #[derive(Clone, Copy, Debug, Default)]
 struct Printed {
     value: f64,
@@ -19,11 +19,11 @@ struct Printed {
     deviation: f64,
 }
 
-/// What a report says.
+/// Contents of a report.
 struct Report {
     sigma0: Printed,
     redundancy: usize,
-    /// By the first word of their headings.
+    /// Camera parameters with the first word of their headings.
     camera: Vec<(String, Printed)>,
     /// Omega, phi, kappa in degrees, X, Y, Z.
     photos: Vec<[Printed; 6]>,
@@ -125,7 +125,7 @@ fn model_1_is_reproduced_to_its_printed_digits() {
     for (parameter, name) in DISTORTED.into_iter().zip(NAMES) {
         let known = report.of_camera(name);
         let value = camera.camera.interior.get(parameter).expect("of the model");
-        // The principal point is counted from the top left corner there.
+        // In the report the principal point is relative to the top left corner.
         let value = match parameter {
             Parameter::X0 => half_width + value,
             Parameter::Y0 => HEIGHT_MM / 2.0 - value,
@@ -173,7 +173,7 @@ fn the_forward_model_is_the_opencv_model_to_its_printed_digits() {
             Parameter::P2 => (1, -1.0),
             _ => (1, 1.0),
         };
-        // A coefficient in millimetres is k/cⁿ: its standard error has a part of c's.
+        // A coefficient in millimetres is k/cⁿ, so the standard error of c contributes to its own.
         let scale = factor / c.powi(power);
         let k = value(parameter);
         let own = camera.sigma[&parameter] * scale;
@@ -194,14 +194,14 @@ fn model_3_with_its_affinity_is_reproduced_to_its_printed_digits() {
     let affinity = 1.0 + report.of_camera("as").value;
     let pitch = HEIGHT_MM / 1704.0;
     project.cameras[0].pixel_pitch = Some([pitch * affinity, pitch]);
-    // There the residual in x is stretched by the affinity and its weight is not.
+    // DBAT scales the residual in x by the affinity, but not its weight.
     for observation in &mut project.observations {
         let [su, sv] = observation.sigma.both();
         observation.sigma = Sigma::Two([su / affinity, sv]);
     }
     let adjustment = solve(&project);
     report.has_sigma0(&adjustment, 1);
-    // The standard errors of the report are those with an affinity that is estimated; ours stands beside the distortion.
+    // The report estimates the affinity, so its standard errors are compared with those of an adjustment that estimates B1.
     let mut estimated = project.clone();
     estimated.cameras[0].free.push(Parameter::B1);
     let estimated = solve(&estimated);

@@ -3,10 +3,11 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 use sightline::adjust::{adjust, linearise, normal_equations, start_adjustment};
 use sightline::adjustment::{AdjustOptions, Adjustment, RelativePose, StatisticsChoice, Termination};
-use sightline::network::{Bar, Network, NetworkPoint, Station, simulate};
+use sightline::camera::pixel_from_camera_point;
 use sightline::noise::Noise;
 use sightline::project::{Camera, Datum, DatumKind, Interior, Project, Rig, Role, Sigma};
 use sightline::rotation;
+use sightline_plan::network::{Bar, Network, NetworkPoint, Station, simulate};
 
 /// Pose of the second camera relative to the first one: attitude and place in its axes.
 struct Truth {
@@ -191,9 +192,9 @@ fn a_rigid_mount_and_missing_photos_are_no_trouble() {
     (rig.sigma_position, rig.sigma_rotation) = (1e-5, 1e-8);
     let result = adjusted(&rigid);
     assert!(result.rig[0].scatter_position.expect("several") < 1e-5, "{:?}", result.rig[0].scatter_position);
-    let report = sightline::report::report(&rigid, Some(&result)).expect("a report").html();
+    let report = sightline_report::report(&rigid, Some(&result)).expect("a report").html();
     assert!(report.contains("Cameras fixed to each other"));
-    // A camera without a photo at an exposure, a photo that takes no part, an exposure without the first camera.
+    // A camera without a photo at an exposure, a photo that is not used, an exposure without the first camera.
     let mut some = project.clone();
     some.photos.iter_mut().filter(|photo| photo.id == "c2-3").for_each(|photo| photo.enabled = false);
     let rig = some.rig.as_mut().expect("a rig");
@@ -201,11 +202,77 @@ fn a_rigid_mount_and_missing_photos_are_no_trouble() {
     rig.exposures[1][0] = None;
     let result = adjusted(&some);
     assert_eq!(result.rig.iter().map(|pose| pose.exposures.len()).collect::<Vec<_>>(), [5, 5]);
-    // One exposure has a relative pose with a standard error, and nothing to compare it with.
+    // One exposure has a relative pose with a standard error, and nothing to compare it with or to test.
     let mut one = project;
     one.rig.as_mut().expect("a rig").exposures.truncate(1);
     let result = adjusted(&one);
     assert!(result.rig[0].sigma_base.is_some() && result.rig[0].scatter_position.is_none());
+    assert_eq!((result.rig[0].exposures[0].p_value, result.rig[0].exposures[0].outlier), (None, false));
+}
+
+#[test]
+fn a_moved_exposure_is_named_and_clean_ones_are_not() {
+    let options = AdjustOptions { statistics: StatisticsChoice::Full, ..AdjustOptions::default() };
+    let full = |project: &Project| {
+        let result = adjust(project, &options, &mut |_| true).expect("a result");
+        assert_eq!(result.termination, Termination::Converged);
+        result
+    };
+    for (datum, cameras) in [(DatumKind::Control, 2), (DatumKind::Free, 3)] {
+        let draws = 60;
+        let (mut sum, mut count, mut below, mut accused) = (0.0, 0.0, 0.0, 0);
+        let (mut named, mut elsewhere) = (0, 0);
+        for seed in 0..draws {
+            let (project, _) = walk(seed, cameras, datum);
+            let clean = full(&project);
+            for off in clean.rig.iter().flat_map(|pose| &pose.exposures) {
+                let (statistic, redundancy) = (off.statistic.expect("tested"), off.redundancy.expect("tested"));
+                // A component that the photos hardly check is not tested.
+                assert!(matches!(off.degrees, Some(4..=6)) && redundancy > 0.0 && redundancy < 6.0, "{off:?}");
+                sum += statistic;
+                count += 1.0;
+                below += f64::from(off.p_value.expect("tested") < 0.1);
+                accused += usize::from(off.outlier);
+            }
+            // At one exposure the last camera is shifted in its mount by about twenty of its standard errors: the photos check a third of it.
+            let moved = seed as usize % 7;
+            let id = format!("c{}-{moved}", cameras - 1);
+            let result = full(&shifted(&project, &id, [0.8, -0.6, 0.4]));
+            for pose in &result.rig {
+                for off in pose.exposures.iter().filter(|off| off.outlier) {
+                    let right = off.exposure == moved && pose.column == cameras - 1;
+                    named += usize::from(right);
+                    elsewhere += usize::from(!right);
+                }
+            }
+        }
+        let (mean, share) = (sum / count, below / count);
+        println!(
+            "{datum:?}: F {mean:.3}, {share:.3} below 0.1, {accused} of {count} accused; {named} of {draws} named, {elsewhere} others"
+        );
+        // Of F with 6 and r - 6 degrees of freedom the mean is 1.03 here; deviations of one mount are correlated.
+        assert!((0.9..1.15).contains(&mean), "{mean}");
+        assert!((share - 0.1).abs() < 4.0 * f64::sqrt(0.09 / count), "{share}");
+        assert!(accused <= 4, "{accused}");
+        assert!(named >= draws as usize * 9 / 10 && elsewhere <= 3, "{named} {elsewhere}");
+    }
+}
+
+/// The network with the photo taken from elsewhere: its measurements are moved by what the shift of its projection centre does.
+fn shifted(project: &Project, photo: &str, by: [f64; 3]) -> Project {
+    let mut moved = project.clone();
+    let pose = project.photos.iter().find(|p| p.id == photo).expect("a photo");
+    let camera = project.cameras.iter().find(|c| c.id == pose.camera).expect("a camera");
+    let m = rotation::object_to_camera(pose.rotation.expect("oriented"));
+    let centre = Vector3::from(pose.position.expect("oriented"));
+    for seen in moved.observations.iter_mut().filter(|seen| seen.photo == photo) {
+        let xyz = project.points.iter().find(|p| p.id == seen.point).and_then(|p| p.xyz).expect("coordinates");
+        let pixel = |from: Vector3<f64>| pixel_from_camera_point(camera, m * (Vector3::from(xyz) - from));
+        let (before, after) = (pixel(centre).expect("in front"), pixel(centre + Vector3::from(by)).expect("in front"));
+        seen.u += after[0] - before[0];
+        seen.v += after[1] - before[1];
+    }
+    moved
 }
 
 #[test]

@@ -154,7 +154,7 @@ fn a_distance_far_more_accurate_than_the_images_does_not_pass_its_error_on() {
     assert!((sigma0(&found) - 1.0).abs() < 0.1);
 }
 
-/// The place that is blamed; none where the network is solved, and then by what the observations say.
+/// The place that is blamed; `None` if the network is solved, and then by what the observations say.
 fn blamed(project: &Project, expected: f64) -> Option<Place> {
     match run(project, false) {
         Ok(found) => {

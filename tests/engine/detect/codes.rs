@@ -218,7 +218,7 @@ fn every_family_is_read_rightly_or_not_at_all() {
     assert!(legible > extent::cases(120, 250) && parts > 0, "{legible} {parts}");
 }
 
-/// What shines or is dirty in a dot's centre says nothing of its level.
+/// Reflections or dirt in a dot's centre do not affect its estimated level.
 #[test]
 fn a_mark_in_the_centre_of_a_dot_changes_no_code() {
     for &(family, dark) in extent::of(&[(Family::Ring14, false), (Family::Ring20, true), (Family::Ring12, true)], 1) {
@@ -262,7 +262,7 @@ fn handed_over(plate: &Plate, amount: f64, quality: u8) -> Vec<u8> {
     image::load_from_memory(&file).expect("the JPEG").to_luma8().into_raw()
 }
 
-/// What small coded dots come to.
+/// Results for small coded dots.
 #[derive(Default)]
 struct Small {
     dots: usize,
@@ -330,7 +330,7 @@ fn small_codes_of_a_camera_are_found_with_honest_standard_errors() {
     small.assert_honest();
 }
 
-/// What a sensor with filters of three colours has of a plate, with the noise of photons and of reading out.
+/// Samples of a sensor with three colour filters for a plate, with the noise of photons and of reading out.
 fn on_sensor(plate: &Plate, seed: u64) -> Shot {
     const BLACK: f64 = 512.0;
     const WHITE: f64 = 16383.0;

@@ -6,7 +6,7 @@ use crate::support::painter::Uniform;
 use sightline::detection::{Codes, Target};
 use sightline::ring_code::Family;
 
-/// What stands in a cell of a plate beside those with codes.
+/// Contents of a cell of a plate other than a coded target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Beside {
     Code,

@@ -38,5 +38,5 @@ fn codes_of_sharpened_and_bent_photos_are_read_or_noted_and_their_sectors_are_no
     assert!(100 * loose <= READ.1 * all, "{loose} of {all}");
 }
 
-/// Least that is read, and most targets that are sectors, of hundred codes.
+/// Minimum number of codes read, and maximum number of sectors taken for targets, per hundred codes.
 const READ: (usize, usize) = (85, 10);

@@ -4,7 +4,7 @@
 use std::process::Command;
 
 use crate::support::painter::{Canvas, Spot, Uniform};
-use sightline::decode::{self, PIXEL_LIMIT, Photo};
+use sightline::decode::{self, DecodedPhoto, PIXEL_LIMIT};
 use sightline::detect::detect_photo;
 use sightline::detection::{Channel, DetectOptions};
 use sightline::exif;
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     /// The file is decoded to the scene's levels.
-    fn decoded(&self, file: &[u8], name: &str) -> Photo {
+    fn decoded(&self, file: &[u8], name: &str) -> DecodedPhoto {
         let photo = decode::photo(file, Channel::Grey).expect(name);
         assert_eq!([photo.grey.width, photo.grey.height], SIZE, "{name}");
         assert!(photo.grey.samples == Samples::U8(self.levels()), "{name}");

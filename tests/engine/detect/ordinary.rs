@@ -128,7 +128,7 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
     assert!((0.7..1.5).contains(&Tally::chi(&all)), "{tally}");
 }
 
-/// Least share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
+/// Minimum share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
 /// shows of ten pictures each, less what chance leaves of two.
 const CONDITIONS: [(&str, f64, f64); 13] = [
     ("hidden by up to a fifth", 0.55, 1.5),

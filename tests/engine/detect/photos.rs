@@ -2,7 +2,7 @@
 
 use crate::support::data::data;
 use crate::support::painter::{Canvas, Spot};
-use sightline::decode::{Photo, Size, grey, photo, picture, size};
+use sightline::decode::{DecodedPhoto, Size, grey, photo, picture, size};
 use sightline::detect::{detect, detect_photo, measure_in_photo};
 use sightline::detection::{Channel, DetectOptions, Target};
 use sightline::exif;
@@ -75,7 +75,8 @@ fn a_damaged_photo_is_reported_by_its_largest_whole_part() {
         Samples::U16(_) => Vec::new(),
     };
     let samples = Samples::U8(parts.iter().flat_map(bytes).collect());
-    let photo = Photo { grey: Grey { width: WIDTH, height: 448, samples }, damaged_rows: vec![[160, 208]], page: None };
+    let photo =
+        DecodedPhoto { grey: Grey { width: WIDTH, height: 448, samples }, damaged_rows: vec![[160, 208]], page: None };
     let options = DetectOptions::default();
     let found = detect_photo(&photo, &options).unwrap();
     assert_eq!(found.targets.len(), 24);

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::axes::{ShownAxes, UserAxes};
-use sightline::exchange::control_csv::{Choices, SigmaRule};
-use sightline::exchange::{Files, export, import_with, lists};
 use sightline::noise::Noise;
 use sightline::project::{Project, ReportLanguage, Role};
+use sightline_exchange::control_csv::{SigmaRule, TableChoices};
+use sightline_exchange::{Files, export, import_with, lists};
 
 use crate::support::networks::{Uniform, Wanted, exact, noisy};
 
@@ -51,7 +51,7 @@ fn every_list_reads_back_as_the_same_coordinates() {
             ("landxml", "points.xml", &adjusted, 0.1),
         ] {
             let files = export(format, &project, Some(&adjustment)).expect(format);
-            let list = lists::read(&files[file], &Choices::default()).expect(format);
+            let list = lists::read(&files[file], &TableChoices::default()).expect(format);
             assert!(list.rejected.is_empty() && list.undecided.is_empty(), "{format} {axes:?}: {:?}", list.rejected);
             let found = places(list.points.iter().map(|row| (row.point.id.clone(), row.point.xyz.unwrap())));
             assert!(apart(truth, &found) <= digits, "{format} {axes:?}");
@@ -66,7 +66,7 @@ fn every_list_reads_back_as_the_same_coordinates() {
                 for row in list.points.iter().filter(|row| row.point.role != Role::Tie) {
                     assert_eq!(row.point.sigma, Some([Some(0.1), Some(0.2), Some(0.3)]), "{axes:?}");
                 }
-                let read = import_with(format, &files, Choices::default()).unwrap().project;
+                let read = import_with(format, &files, TableChoices::default()).unwrap().project;
                 assert_eq!(read.axes, axes);
             }
         }
@@ -107,7 +107,7 @@ fn the_report_has_the_letters_of_the_user_in_both_languages() {
     let (mut project, adjustment) = result(Some(UserAxes::Neh), 5);
     for language in [ReportLanguage::English, ReportLanguage::Korean] {
         project.report.language = Some(language);
-        let mut files = export("report", &project, Some(&adjustment)).unwrap();
+        let mut files = sightline_report::files::export("report", &project, Some(&adjustment), false).unwrap();
         let page = String::from_utf8(files.remove("report.html").unwrap()).unwrap();
         for head in ["<sub>N</sub>", "<sub>E</sub>", "<sub>H</sub>", "E →  N ↑", "N, E, H"] {
             assert!(page.contains(head), "{language:?} {head}");
@@ -123,7 +123,7 @@ fn the_report_has_the_letters_of_the_user_in_both_languages() {
     }
 }
 
-/// What is typed beside a project's coordinates stands as they do: no heading, the project's order.
+/// Typed points have the project's order of coordinates and no heading.
 #[test]
 fn rows_without_a_heading_stand_as_the_project_does() {
     let mut random = Uniform(52);
@@ -132,11 +132,11 @@ fn rows_without_a_heading_stand_as_the_project_does() {
         for axes in [UserAxes::Enh, UserAxes::Neh] {
             let [a, b, c] = ShownAxes::of(Some(axes)).shown(xyz);
             let text = format!("p\t{a:.3}\t{b:.3}\t{c:.3}\nq\t{b:.3}\t{a:.3}\t{c:.3}\n");
-            let choices = Choices {
+            let choices = TableChoices {
                 project_axes: Some(axes),
                 sigma: Some(SigmaRule::read("2 mm").unwrap()),
                 unit: sightline::units::Unit::named("m"),
-                ..Choices::default()
+                ..TableChoices::default()
             };
             let list = lists::read(text.as_bytes(), &choices).unwrap();
             assert!(list.undecided.is_empty() && list.rejected.is_empty());

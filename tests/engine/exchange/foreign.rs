@@ -1,8 +1,8 @@
 //! Files of other programs, as they come.
 
 use crate::support::data::{data, text};
-use sightline::exchange::{self, Files, control_csv};
 use sightline::project::{Interior, Project, Role, Sigma};
+use sightline_exchange::{self as exchange, Files, control_csv};
 
 fn import(format: &str, paths: &[&str]) -> Option<Project> {
     let mut files = Files::new();

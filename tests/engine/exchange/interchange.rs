@@ -5,12 +5,13 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use sightline::camera::pixel_from_camera_point;
-use sightline::error::{Error, Reason};
-use sightline::exchange::conversion::Covariance;
-use sightline::exchange::foreign::{Assumed, CameraOptions};
-use sightline::exchange::{self, Choices, Files, cameras};
+use sightline::error::Error;
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Role, Sigma};
 use sightline::rotation::{angles, object_to_camera};
+use sightline_exchange::conversion::Covariance;
+use sightline_exchange::foreign::{Assumed, CameraOptions};
+use sightline_exchange::reason::ExchangeReason;
+use sightline_exchange::{self as exchange, Choices, Files, cameras};
 
 fn file(name: &str, content: impl Into<Vec<u8>>) -> Files {
     Files::from([(name.to_owned(), content.into())])
@@ -298,8 +299,10 @@ fn what_has_no_model_is_refused_by_name() {
     ];
     for (format, name, content, model) in cases {
         match cameras::import(format, &file(name, content), &CameraOptions::default()) {
-            Err(Error::Invalid { reason: Reason::NoSuchCameraModel { model: named }, at }) => {
-                assert_eq!((named.as_str(), at.file.as_deref()), (model, Some(name)));
+            Err(error) => {
+                let wanted = ExchangeReason::NoSuchCameraModel { model: model.to_owned() };
+                assert_eq!(ExchangeReason::of_error(&error), Some(wanted), "{format}: {error}");
+                assert_eq!(error.place().file.as_deref(), Some(name));
             }
             other => panic!("{format}: {other:?}"),
         }

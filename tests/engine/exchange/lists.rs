@@ -2,13 +2,13 @@
 
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment};
-use sightline::exchange::control_csv::{Assumption, Basis, Choices};
-use sightline::exchange::encoding::{Encoding, list, to_cp949};
-use sightline::exchange::lists::{PointList, read};
-use sightline::exchange::{Files, export, import, import_with};
 use sightline::noise::Noise;
 use sightline::project::{DrawnLine, Layer, Project};
 use sightline::units::Unit;
+use sightline_exchange::control_csv::{Assumption, Basis, TableChoices};
+use sightline_exchange::encoding::{Encoding, list, to_cp949};
+use sightline_exchange::lists::{PointList, read};
+use sightline_exchange::{Files, export, import, import_with};
 
 use crate::support::data;
 use crate::support::networks::{Uniform, Wanted, exact, noisy};
@@ -115,7 +115,7 @@ fn lists_of_instruments_are_read_to_the_last_digit() {
     let mut random = Uniform(52);
     for round in 0..2000 {
         let (text, truth, unit) = written(round % 4, &mut random);
-        let found = read(text.as_bytes(), &Choices::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let found = read(text.as_bytes(), &TableChoices::default()).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert!(found.rejected.is_empty() && found.undecided.is_empty(), "{found:?}\n{text}");
         assert_eq!(found.unit, unit);
         let all: Vec<_> =
@@ -126,7 +126,7 @@ fn lists_of_instruments_are_read_to_the_last_digit() {
 
 fn case(name: &str) -> Option<PointList> {
     let bytes = data::data(&format!("cases/{name}"))?;
-    Some(read(&bytes, &Choices::default()).unwrap_or_else(|error| panic!("{name}: {error}")))
+    Some(read(&bytes, &TableChoices::default()).unwrap_or_else(|error| panic!("{name}: {error}")))
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn the_cases_by_their_bytes() {
 fn projects_take_every_list() {
     let bytes = b"<LandXML><Units><Metric linearUnit=\"meter\"/></Units><CgPoints><CgPoint name=\"a\">2 1 3</CgPoint></CgPoints></LandXML>";
     let files = Files::from([("a.xml".to_owned(), bytes.to_vec())]);
-    let imported = import_with("control-csv", &files, Choices::default()).unwrap();
+    let imported = import_with("control-csv", &files, TableChoices::default()).unwrap();
     assert_eq!((imported.project.unit.as_str(), imported.project.points[0].xyz), ("m", Some([1.0, 2.0, 3.0])));
 }
 

@@ -1,12 +1,12 @@
-//! Every format that is both written and read gives back what it carries, whatever the identifiers are, or refuses them by name.
+//! Every format that is both written and read reads back what it writes, whatever the identifiers are, or refuses them by name.
 
 use sightline::error::Error;
-use sightline::exchange::{export, import};
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Role, Sigma};
+use sightline_exchange::{export, import};
 
 use crate::support::painter::Uniform;
 
-/// What identifiers are made of in the worst of files.
+/// Characters of identifiers in difficult files.
 const LETTERS: [char; 24] = [
     'a', 'B', '7', '0', '가', 'é', ',', ';', '"', '\'', '\n', '\r', '\t', '=', '+', '-', '@', '#', '%', ' ', '.', '\\',
     '/', '{',

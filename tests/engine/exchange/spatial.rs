@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment};
-use sightline::exchange::export;
 use sightline::noise::Noise;
 use sightline::project::{DrawnLine, Feature, FeatureKind, Layer, Project};
+use sightline_exchange::export;
 
 use crate::support::networks::{Wanted, exact, noisy};
 

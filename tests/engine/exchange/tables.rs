@@ -1,10 +1,10 @@
 //! Control tables of all habits, drawn at random: a value is read right, or it is refused or asked; never wrong.
 
-use sightline::exchange::control_csv::{
-    Assumption, Axes, Basis, Choices, ControlTable, Decimal, Sign, parse, parse_with, sign_of,
-};
-use sightline::exchange::{Files, encoding, import_with};
 use sightline::units::Unit;
+use sightline_exchange::control_csv::{
+    Assumption, Axes, Basis, ControlTable, Decimal, Sign, TableChoices, parse, parse_with, sign_of,
+};
+use sightline_exchange::{Files, encoding, import_with};
 
 use crate::support::data;
 use crate::support::networks::Uniform;
@@ -104,7 +104,7 @@ fn number(value: f64, habit: &Habit) -> String {
     if value < 0.0 { format!("-{grouped}") } else { grouped }
 }
 
-/// What the written number is.
+/// Meaning of the written number.
 fn rounded(value: f64, habit: &Habit) -> f64 {
     format!("{:.*}", habit.decimals, value).parse().unwrap()
 }
@@ -243,7 +243,7 @@ fn a_value_is_read_right_or_refused() {
         let separate = matches!(habit.separator, ';' | '\t') && habit.thousands.is_none();
         if separate {
             let decimal = Some(if habit.decimal_comma { Decimal::Comma } else { Decimal::Point });
-            let chosen = parse_with(&text, Choices { decimal, ..Choices::default() });
+            let chosen = parse_with(&text, TableChoices { decimal, ..TableChoices::default() });
             let [_, not] = compared(&habit, &points, &chosen, &text);
             assert_eq!(not, 0, "{habit:?}\n{text}");
         }
@@ -320,7 +320,7 @@ fn headings_decide_the_axes_and_the_units() {
         assert!(table.rows.iter().all(Result::is_err) && table.is_open(), "{bad}: {table:?}");
     }
     // A chosen unit settles what the standard errors leave open.
-    let metres = Choices { unit: Some(Unit::Metre), ..Choices::default() };
+    let metres = TableChoices { unit: Some(Unit::Metre), ..TableChoices::default() };
     let table = parse_with("id,X,Y,Z,sX [mm],sY [mm],sZ [mm]\n1,1.5,2.5,3.5,2,2,2\n", metres);
     assert_eq!(table.rows[0].as_ref().unwrap().point.sigma, Some([Some(0.002); 3]));
 }
@@ -371,7 +371,7 @@ fn the_lists_of_the_cases() {
     let labels: Vec<_> = table.rows.iter().map(|row| row.as_ref().unwrap().label.clone().unwrap()).collect();
     assert_eq!(labels, ["TGT", "TGT", "TGT", "NAIL"]);
     assert!(matches!(table.undecided().next(), Some(Assumption::AxisOrder { .. })));
-    let chosen = parse_with(&text, Choices { axes: Some(Axes::Yx), ..Choices::default() });
+    let chosen = parse_with(&text, TableChoices { axes: Some(Axes::Yx), ..TableChoices::default() });
     let xyz = chosen.rows[0].as_ref().unwrap().point.xyz;
     assert_eq!((xyz, chosen.undecided().count()), (Some([3000.456, 5000.123, 101.231]), 0));
 
@@ -391,7 +391,7 @@ fn imports_tell_what_they_assumed() {
     };
     let two =
         files(&[("a.csv", "id,X [m],Y [m],Z [m]\n1,1.5,2,3\n"), ("b.csv", "id,X [mm],Y [mm],Z [mm]\n2,500,2,3\n")]);
-    let imported = import_with("control-csv", &two, Choices::default()).unwrap();
+    let imported = import_with("control-csv", &two, TableChoices::default()).unwrap();
     assert_eq!(imported.project.unit, "m");
     assert_eq!(imported.project.points[1].xyz, Some([0.5, 0.002, 0.003]));
     assert_eq!(imported.assumptions.len(), 2);
@@ -402,6 +402,6 @@ fn imports_tell_what_they_assumed() {
     assert_eq!(kinds, ["separator", "decimal_sign", "columns", "axis_order", "unit"]);
     assert_eq!(json["unit"], "m");
     let open = files(&[("a.csv", "1\t1,234\t2,345\t3,456\n")]);
-    let error = import_with("control-csv", &open, Choices::default()).unwrap_err();
+    let error = import_with("control-csv", &open, TableChoices::default()).unwrap_err();
     assert!(error.to_string().contains("1.234") && error.to_string().contains("1234"), "{error}");
 }

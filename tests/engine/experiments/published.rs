@@ -1,6 +1,6 @@
 //! The papers' figures.
 
-use sightline::experiments::{Cell, Experiment, ExperimentOptions, NAMES, run};
+use sightline_lab::experiments::{Cell, Experiment, ExperimentOptions, NAMES, run};
 
 fn result(name: &str) -> Experiment {
     run(name, &ExperimentOptions::default(), &mut |_, _| true).expect(name)
@@ -78,12 +78,12 @@ fn film() {
 #[test]
 fn film_as_files() {
     let film = result("film");
-    let csv = sightline::experiments::csv(&film);
+    let csv = sightline_lab::experiments::csv(&film);
     let files = [
-        ("camera.txt".to_owned(), sightline::experiments::film_description().into_bytes()),
+        ("camera.txt".to_owned(), sightline_lab::experiments::film_description().into_bytes()),
         ("readings.csv".to_owned(), csv["film-readings.csv"].clone()),
     ];
-    let reduced = sightline::exchange::comparator::import(&files.into_iter().collect()).unwrap();
+    let reduced = sightline_exchange::comparator::import(&files.into_iter().collect()).unwrap();
     assert_eq!(reduced.inner_orientations.len(), 5);
     assert_eq!(reduced.project.observations.len(), film.project.observations.len());
     for (a, b) in reduced.project.observations.iter().zip(&film.project.observations) {

@@ -8,8 +8,8 @@ use sightline::matching::{
     Board, BoardKind, GridNaming, GridOptions, GridOrientation, PhotoTargets, UnnamedReason, name_grid,
 };
 use sightline::project::{Photo, Project, Role};
-use sightline::render::{Exposure, render};
-use sightline::scene::{Disc, Face, Scene};
+use sightline_plan::render::{Exposure, render};
+use sightline_plan::scene::{Disc, Face, Scene};
 
 use crate::support::boards::{self, Trouble, View, board, document, random_board, random_camera, view};
 use crate::support::networks::Uniform;

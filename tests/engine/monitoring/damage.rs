@@ -3,7 +3,7 @@
 use crate::support::epochs::{Made, epoch, object, references};
 use sightline::adjustment::{Adjustment, Termination};
 use sightline::error::{Error, Reason};
-use sightline::monitoring::{Epoch, LeftOutReason, ListedPoint, Options, Outcome, compare_epochs};
+use sightline::monitoring::{Epoch, LeftOutPointReason, ListedPoint, Options, Outcome, compare_epochs};
 use sightline::project::Project;
 
 fn pair() -> [Epoch; 2] {
@@ -173,9 +173,9 @@ fn what_is_left_out_is_listed() {
     let ignoring = Options { ignored: vec!["o1".into()], ..options() };
     let found = compare_epochs(&e, &ignoring).unwrap();
     let reason = |id: &str| &found.pairs[0].left_out.iter().find(|l| l.id == id).unwrap().reason;
-    assert_eq!(reason("o4"), &LeftOutReason::OnlyIn { epoch: "0".into() });
-    assert_eq!(reason("o3"), &LeftOutReason::NoSigma { epoch: "1".into() });
-    assert_eq!(reason("o1"), &LeftOutReason::Ignored);
+    assert_eq!(reason("o4"), &LeftOutPointReason::OnlyIn { epoch: "0".into() });
+    assert_eq!(reason("o3"), &LeftOutPointReason::NoSigma { epoch: "1".into() });
+    assert_eq!(reason("o1"), &LeftOutPointReason::Ignored);
     assert_eq!((found.pairs[0].left_out.len(), found.pairs[0].points.len()), (3, 10));
 }
 

@@ -3,7 +3,8 @@
 use crate::support::epochs::{Made, SIGMA, direction, epoch, object, references};
 use nalgebra::{DMatrix, Matrix3, Rotation3, Vector3};
 use sightline::monitoring::{
-    Epoch, Group, GroupModel, LeftOutReason, Limits, Monitoring, Options, Pair, State, Thresholds, compare_epochs,
+    Epoch, Group, GroupModel, LeftOutPointReason, Limits, Monitoring, Options, Pair, ThresholdState, Thresholds,
+    compare_epochs,
 };
 use sightline::noise::Noise;
 
@@ -165,7 +166,7 @@ fn numbered_points_are_matched_by_position() {
     for seed in 0..SEEDS {
         let mut object = object(900 + seed, 8, 30);
         object.iter_mut().skip(8).enumerate().for_each(|(k, (id, _))| *id = format!("u{k}"));
-        // Two that stand closer than they could be told apart by where they are.
+        // Two that stand closer than they could be distinguished by their positions.
         let beside = object[8].1 + Vector3::new(0.3, 0.0, 0.0);
         object[9].1 = beside;
         let mut renumbered = object.clone();
@@ -188,8 +189,8 @@ fn numbered_points_are_matched_by_position() {
             pair.left_out.iter().any(|l| {
                 l.id == id
                     && match &l.reason {
-                        LeftOutReason::Ambiguous { epoch, candidates } => at(epoch) && !candidates.is_empty(),
-                        LeftOutReason::NoCounterpart { epoch } => at(epoch),
+                        LeftOutPointReason::Ambiguous { epoch, candidates } => at(epoch) && !candidates.is_empty(),
+                        LeftOutPointReason::NoCounterpart { epoch } => at(epoch),
                         _ => false,
                     }
             })
@@ -236,12 +237,15 @@ fn velocities_have_their_standard_errors() {
             continue;
         }
         let moving = series("o1");
-        assert_eq!((moving.values.len(), moving.state), (4, Some(State::Alarm)));
+        assert_eq!((moving.values.len(), moving.state), (4, Some(ThresholdState::Alarm)));
         assert!(!moving.velocity_test.unwrap().passed);
         let (v, s) = (moving.velocity.unwrap(), moving.velocity_sigma.unwrap());
         squares += (0..3).map(|a| ((v[a] - rate[a]) / s[a]).powi(2)).sum::<f64>();
         count += 3;
-        assert_eq!((series("o0").state, series("o2").state), (Some(State::Warning), Some(State::Quiet)));
+        assert_eq!(
+            (series("o0").state, series("o2").state),
+            (Some(ThresholdState::Warning), Some(ThresholdState::Quiet))
+        );
         tested += 1;
         rejected += usize::from(!series("o3").velocity_test.unwrap().passed);
     }

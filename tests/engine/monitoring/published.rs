@@ -1,11 +1,11 @@
 //! Published statistics of two epochs, and two real bundles of one object.
 
 use crate::support::data;
-use sightline::exchange::epochs;
 use sightline::monitoring::{
     DatumChoice, Epoch, ListedCovariance, ListedPoint, Monitoring, Options, Outcome, PairNote, VarianceChoice,
     VarianceUsed, compare_epochs,
 };
+use sightline_exchange::epochs;
 
 /// An epoch of the wall: its plane coordinates at a height that is held.
 fn wall(epoch: &serde_json::Value, name: &str) -> Epoch {

@@ -6,8 +6,8 @@ use sightline::adjustment::{AdjustOptions, Adjustment, Advice, LeftOutBy, LeftOu
 use sightline::noise::Noise;
 use sightline::orient::{Note, Oriented, PointReason, orient};
 use sightline::project::{DatumKind, Project, SetAside, SetAsideBy, SetAsideReason};
-use sightline::report::report;
 use sightline::{Error, Result};
+use sightline_report::report;
 
 use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};
 

@@ -166,7 +166,7 @@ fn a_resized_and_a_cropped_photo_among_others_are_named() {
         let others = resized.project.photos.iter().filter(|p| p.position.is_some()).count();
         assert!(others == 7 && resized.project.photos[4].position.is_none(), "seed {seed}");
         if seed == 3 {
-            // Not told here: a crop that a turn of the photo stands for.
+            // Not reported here: a crop that is equivalent to a rotation of the photo.
             continue;
         }
         let cropped = with(&|p| [p[0] - 900.0, p[1] - 300.0]);

@@ -117,7 +117,7 @@ fn photos_left_over_are_oriented_in_the_end() {
 }
 
 /// Two photos between 30 and 5 others of a strip are withdrawn. The five, which nothing ties to the thirty any more, do not keep poses
-/// in a system of their own, and all seven are oriented against what stands.
+/// in a system of their own, and all seven are oriented relative to the other photos.
 #[test]
 fn photos_that_nothing_ties_to_the_others_keep_no_pose() {
     let network = network::network(&Case::of(194, 60));
@@ -171,7 +171,7 @@ fn the_second_pose_of_a_wall_is_left_for_the_first() {
     }
 }
 
-/// Rough models of few photos carried the given principal distance of these networks away, and no adjustment came to an end.
+/// Rough models of few photos changed the given principal distance of these networks wrongly, and no adjustment came to an end.
 #[test]
 fn a_given_distance_is_held_where_the_network_fails_otherwise() {
     for &seed in extent::of(&[244, 356], 1) {

@@ -4,19 +4,19 @@ use std::time::Instant;
 
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, StatisticsChoice};
-use sightline::experiments;
 use sightline::monitoring::{Epoch, Options, Pair, ReferenceFrom, compare_epochs};
-use sightline::network::{Network, NetworkPoint, Source, Station, simulate};
 use sightline::noise::Noise;
-use sightline::plan::{Prediction, predict, targets_on};
 use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Plan, PlanStation, Role, Sigma};
-use sightline::scene::Face;
+use sightline_lab::experiments;
+use sightline_plan::network::{Network, NetworkPoint, Source, Station, simulate};
+use sightline_plan::scene::Face;
+use sightline_plan::{Prediction, predict, targets_on};
 
 use crate::support::epochs::band;
 
 const EXAMPLES: [&str; 4] = ["kang", "lee-calibration", "lee-structure", "kim"];
 
-/// The network that a plan stands for.
+/// The network of a plan.
 fn network(plan: &Plan, source: Source, seed: u64, noise: f64) -> Network {
     let station = |s: &PlanStation| Station {
         id: s.id.clone(),
@@ -49,7 +49,7 @@ fn network(plan: &Plan, source: Source, seed: u64, noise: f64) -> Network {
         points: plan.points.iter().map(point).collect(),
         faces: plan.faces.iter().map(face).collect(),
         distances: (plan.distances.iter())
-            .map(|d| sightline::network::Bar { from: d.from.clone(), to: d.to.clone(), sigma: d.sigma })
+            .map(|d| sightline_plan::network::Bar { from: d.from.clone(), to: d.to.clone(), sigma: d.sigma })
             .collect(),
         datum: plan.datum.clone(),
         max_incidence: plan.max_incidence,
@@ -67,7 +67,7 @@ fn example(name: &str) -> Plan {
 }
 
 fn without(plan: &Plan, prediction: &Prediction) -> Plan {
-    // Points that the photos do not determine take no part in the adjustment either.
+    // Points that the photos do not determine are not used in the adjustment either.
     let loose: Vec<&str> = prediction.points.iter().filter(|p| p.sigma.is_none()).map(|p| p.id.as_str()).collect();
     let mut plan = plan.clone();
     plan.points.retain(|p| !loose.contains(&p.id.as_str()));
@@ -161,7 +161,7 @@ fn a_dragged_station_is_predicted_at_once() {
     assert!(times[6] < 400.0, "{times:?}");
 }
 
-/// A wall that is photographed from five places; two rows of six points carry the datum, or all.
+/// A wall that is photographed from five places; two rows of six points define the datum, or all.
 fn campaign(reference: bool) -> Plan {
     let form = Form::Plane { width: 3000.0, height: 2000.0, columns: 6, rows: 3, upright: true, diameter: 15.0 };
     let (mut points, faces) = targets_on(&form).expect("targets");
@@ -205,7 +205,7 @@ fn least_seen([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> [f64; 3] {
     direction.into()
 }
 
-/// What a plan calls detectable is found by the comparison of two campaigns as planned in four of five: of object points exactly, of
+/// The comparison of two campaigns as planned finds displacements that the plan states as detectable in four of five cases: of object points exactly, of
 /// reference points at least.
 fn planned_and_found(pairs: usize, seed: u64) {
     for with_reference in [true, false] {

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sightline::plan::{Criterion, MakeOptions, Prediction, compare, make, predict, suggest, targets_on};
 use sightline::project::{Camera, Form, Interior, Parameter, Plan, PlanStation, Region, Wanted};
+use sightline_plan::{Criterion, MakeOptions, Prediction, compare, make, predict, suggest, targets_on};
 
 use crate::support::extent;
 
@@ -173,7 +173,7 @@ fn worth(prediction: &Prediction, criterion: &Criterion) -> f64 {
     value.unwrap_or(f64::INFINITY)
 }
 
-/// The recommended photo's worth over that of the best of a grid.
+/// The gain of the recommended photo over that of the best photo of a grid.
 fn against_all(seed: u64, step: f64) -> f64 {
     let case = case(seed).begun(seed);
     let criterion = match seed % 5 {

@@ -3,18 +3,18 @@
 use serde_json::Value;
 use sightline::adjust::adjust;
 use sightline::adjustment::AdjustOptions;
-use sightline::network::{Source, simulate};
 use sightline::project::{
     CoordinateSystem, End, Feature, FeatureKind, Form, GivenPoint, LengthLimit, Plan, PlanStation, Project, SystemKind,
 };
 use sightline::units::Unit;
+use sightline_plan::network::{Source, simulate};
 
 use crate::support::networks::Uniform;
 
 /// The sample's network with everything that has a length: diameters, observed centres, features, systems, a plan.
 fn project(seed: u64) -> Project {
     let mut random = Uniform(seed + 1);
-    let mut network = sightline::sample::network();
+    let mut network = sightline_lab::sample::network();
     network.observations = Source::Noisy;
     network.exposure.seed = seed;
     let mut project = simulate(&network).unwrap();

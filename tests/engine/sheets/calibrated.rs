@@ -5,14 +5,14 @@ use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Termination};
 use sightline::detect::detect;
 use sightline::detection::{Codes, DetectOptions};
-use sightline::exchange::control_csv;
 use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded};
-use sightline::network::{Network, NetworkPoint, Station, photo};
 use sightline::orient::orient;
 use sightline::project::{Camera, DatumKind, Distance, Interior, Parameter, Photo, Point, Project, Role};
 use sightline::ring_code::Family;
-use sightline::scene::{Face, Ring};
-use sightline::sheets::{Field, SheetOptions, Sheets, target_sheets};
+use sightline_exchange::control_csv;
+use sightline_plan::network::{Network, NetworkPoint, Station, photo};
+use sightline_plan::scene::{Face, Ring};
+use sightline_report::sheets::{Field, SheetOptions, Sheets, target_sheets};
 
 const FAMILY: Family = Family::Ring14;
 const FOCAL: f64 = 1500.0;
@@ -24,7 +24,7 @@ fn sheet() -> Sheets {
 
 /// The sheet on a table, from eight sides.
 fn network(sheets: &Sheets) -> Network {
-    let point = |target: &sightline::sheets::Printed| {
+    let point = |target: &sightline_report::sheets::Printed| {
         let [x, y] = target.plate?;
         let ring = target.number.map(|number| Ring {
             sectors: FAMILY.bits(),

@@ -3,7 +3,7 @@
 use sightline::detect::detect;
 use sightline::detection::{Codes, DetectOptions, Target};
 use sightline::ring_code::Family;
-use sightline::sheets::{Ground, LEAST_PX, SheetOptions, Sheets, target_sheets};
+use sightline_report::sheets::{Ground, LEAST_PX, SheetOptions, Sheets, target_sheets};
 
 use crate::support::extent;
 use crate::support::painter::Uniform;

@@ -12,7 +12,7 @@ use sightline::project::{Camera, Interior, Photo, Project};
 
 use super::networks::Uniform;
 
-/// What stands in a photo's way.
+/// Obstacles of a photo.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Trouble {
     /// Share of the board's extent by which the photo may aim beside its centre.
@@ -21,7 +21,7 @@ pub struct Trouble {
     pub missing: f64,
     /// Something round or straight covers part of the board.
     pub occluder: bool,
-    /// Most false dots.
+    /// Maximum number of false dots.
     pub clutter: f64,
     /// A second board of another kind beside it.
     pub second: bool,
@@ -35,7 +35,7 @@ pub struct View {
     pub pose: Pose,
     pub board: Board,
     pub targets: Vec<Target>,
-    /// Row and column of each target; none of clutter.
+    /// Row and column of each target; `None` for clutter.
     pub truth: Vec<Option<[u32; 2]>>,
     /// Whether the photo shows all dots but those that are missing by themselves.
     pub whole: bool,
@@ -132,7 +132,7 @@ pub fn pose(at: Vector3<f64>, distance: f64, tilt: f64, azimuth: f64, roll: f64)
     Pose { object_to_camera, centre }
 }
 
-/// Image of a dot: place and ellipse; none outside the photo or cut by its border.
+/// Image of a dot: place and ellipse; `None` outside the photo or cut by its border.
 fn image(camera: &Camera, pose: &Pose, centre: Vector3<f64>, diameter: f64) -> Option<Target> {
     let project = |p: Vector3<f64>| pixel_from_camera_point(camera, pose.to_camera(&p));
     let [u, v] = project(centre)?;
@@ -255,7 +255,7 @@ fn second(camera: &Camera, pose: &Pose, first: &Board, random: &mut Uniform, tar
     let diameter = own * random.between(0.7, 1.2) * other_pitch / first.pitch;
     let gap = 3.0 * first.pitch + 2.0 * diameter;
     let side = random.between(0.0, 2.0) as u32;
-    // nobody could tell two boards of one design from each other
+    // nobody could distinguish two boards of one design
     other.rows += u32::from((other.rows, other.columns, other.kind) == (first.rows, first.columns, first.kind));
     let angle = random.between(-0.1, 0.1_f64);
     for dot in dots(&other) {

@@ -122,7 +122,7 @@ fn softened(levels: &[f64], width: usize, sigma: f64) -> Vec<f64> {
     pass(&pass(levels, true), false)
 }
 
-/// What was found in one picture.
+/// Results of one picture.
 #[derive(Clone, Debug, Default)]
 pub struct Score {
     pub targets: usize,
@@ -163,7 +163,7 @@ pub fn score(detection: &Detection, spots: &[Spot]) -> Score {
     score
 }
 
-/// What was found in all pictures.
+/// Results of all pictures.
 #[derive(Debug, Default)]
 pub struct Tally {
     pub pictures: Vec<(Camera, Score)>,

@@ -12,7 +12,7 @@ use sightline::statistics::distribution::normal_quantile;
 
 use super::painter::Uniform;
 
-/// What a picture shows.
+/// Contents of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A coded target.

@@ -26,7 +26,7 @@ pub enum Tables {
 const TABLES: [Tables; 3] = [Tables::Standard, Tables::Camera, Tables::Flat];
 /// Side of a picture.
 const SIZE: usize = 640;
-/// Most targets of a picture.
+/// Maximum number of targets of a picture.
 const TARGETS: usize = 48;
 
 /// A picture and what was done to it.
@@ -194,7 +194,7 @@ fn scrambled(seed: u64) -> Uniform {
     Uniform(z ^ (z >> 31))
 }
 
-/// What was measured of the targets of some pictures.
+/// Measurements of the targets of some pictures.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sums {
     pub targets: usize,
@@ -204,7 +204,7 @@ pub struct Sums {
     pub largest: f64,
     /// Of squared errors in pixels.
     pub errors: f64,
-    /// Detections that are no target.
+    /// False detections.
     pub others: usize,
 }
 

@@ -45,7 +45,8 @@ pub fn all() -> Vec<Condition> {
             options: DetectOptions { min_axis_ratio: 0.25, ..options() },
             picture: tilted,
         },
-        Condition { name: "from 3 px", options: DetectOptions { min_diameter: 3.0, ..options() }, picture: small },
+        // of major axes from 3 px the minor ones have 2.4 px and more
+        Condition { name: "from 3 px", options: DetectOptions { min_diameter: 2.4, ..options() }, picture: small },
         Condition { name: "binary drawing", options: options(), picture: binary },
         Condition { name: "screenshot", options: options(), picture: screenshot },
         Condition { name: "paper 2 x over-exposed", options: options(), picture: white_paper },

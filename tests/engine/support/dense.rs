@@ -6,7 +6,7 @@ use num_dual::{Dual64, DualNum};
 use sightline::adjustment::{Adjustment, Given};
 use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
-/// What one entry of the parameter vector is.
+/// Meaning of an entry of the parameter vector.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unknown {
     Photo(usize, usize),

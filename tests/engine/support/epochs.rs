@@ -17,7 +17,7 @@ pub fn object(seed: u64, references: usize, objects: usize) -> Vec<(String, Vect
     references.chain((0..objects).map(|k| format!("o{k}"))).map(|id| (id, place())).collect()
 }
 
-/// What an epoch has.
+/// Data of an epoch.
 #[derive(Clone, Debug)]
 pub struct Made {
     /// Seed of noise and covariance.

@@ -6,12 +6,12 @@ use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 use sightline::detection::Detection;
 
-/// What was found of a grid.
+/// Result for a grid.
 #[derive(Debug)]
 pub struct Score {
     /// Dots within 2.5 px of a target.
     pub hits: usize,
-    /// Targets that are no dot.
+    /// Targets that are not dots.
     pub others: usize,
     /// Rms distance of the hits from the fitted grid, in pixels.
     pub rms: f64,

@@ -2,16 +2,16 @@
 
 use nalgebra::{Rotation3, Vector3};
 use sightline::camera::pixel_from_camera_point;
-use sightline::network::Station;
 use sightline::noise::Noise;
 use sightline::project::{
     Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma,
 };
 use sightline::rotation;
+use sightline_plan::network::Station;
 
 use super::networks::Uniform;
 
-/// What is wrong.
+/// The fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     None,

@@ -8,7 +8,7 @@ use sightline::project::{
 };
 use sightline::rotation;
 
-/// What a random network has.
+/// Parameters of a random network.
 #[derive(Clone, Debug)]
 pub struct Wanted {
     pub photos: usize,
@@ -50,7 +50,6 @@ pub fn brown(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
-        colours: Default::default(),
     }
 }
 
@@ -74,7 +73,6 @@ pub fn opencv(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
-        colours: Default::default(),
     }
 }
 

@@ -7,12 +7,12 @@ use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector2, Vector3};
 use sightline::detection::Target;
 use sightline::image::{Grey, GreyView, Samples, SamplesView};
 use sightline::noise::Noise;
-use sightline::sheets::Sheets;
+use sightline_report::sheets::Sheets;
 
 use super::coded_patch::blurred;
 use super::painter::Uniform;
 
-/// The PDF's pages as poppler draws them at a resolution; none where poppler is not there.
+/// The PDF's pages as poppler draws them at a resolution; `None` if poppler is not there.
 pub fn drawn(pdf: &[u8], dpi: u32, pages: usize, name: &str) -> Option<Vec<Grey>> {
     let folder = std::env::temp_dir().join(format!("sightline-sheets-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");

@@ -1,7 +1,7 @@
 //! A small sound network whose document is damaged: by the fuzzer place by place, by a test where the fuzzer found something.
 
-use sightline::network::{self, Network, NetworkPoint, Station};
 use sightline::project::{Camera, DatumKind, Distance, Interior, Parameter, Project, Role};
+use sightline_plan::network::{self, Network, NetworkPoint, Station};
 
 /// Five photos around twelve points, with observations of every kind; the bits of `seed` choose a second camera, one that is estimated photo by photo, and the
 /// datum.

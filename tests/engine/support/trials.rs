@@ -56,7 +56,7 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-/// What clean samples of a network give.
+/// Results of samples of a network without gross errors.
 #[derive(Debug, Default)]
 pub struct Clean {
     pub redundancy: usize,
@@ -97,7 +97,7 @@ pub fn clean(wanted: &Wanted, options: &AdjustOptions, samples: usize, seed: u64
     result
 }
 
-/// What samples with gross errors give.
+/// Results of samples with gross errors.
 #[derive(Debug, Default)]
 pub struct Spoiled {
     /// Part of the samples in which every planted error was taken out.

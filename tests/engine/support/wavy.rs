@@ -1,4 +1,4 @@
-//! Spots whose rims are no ellipses.
+//! Targets with irregular edges.
 
 use super::painter::{Canvas, Spot};
 

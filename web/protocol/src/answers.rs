@@ -1,4 +1,4 @@
-//! What tasks end with, and what is said on the way: values that have no type of their own in the engine.
+//! Results and progress messages of tasks that have no type in the engine.
 
 use std::collections::BTreeMap;
 
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use sightline::Error;
 use sightline::adjustment::{AdjustedPhoto, Adjustment, Iteration};
 use sightline::detection::Detection;
-use sightline::exchange::foreign::ImportedCamera;
 use sightline::exif::PhotoInfo;
 use sightline::orient::Note;
 use sightline::project::{Conversion, Datum, Ignored, Origin, Project};
-use sightline::sheets::CodeCount;
+use sightline_exchange::foreign::ImportedCamera;
+use sightline_report::sheets::CodeCount;
 
 use crate::pieces::Piece;
 /// Files of other programs that were read.
@@ -44,7 +44,7 @@ pub struct Written {
     pub names: Vec<String>,
     /// Cameras whose model was converted.
     pub conversions: Vec<Conversion>,
-    /// What has no place in the format.
+    /// Data that the format cannot hold.
     pub ignored: Vec<Ignored>,
 }
 
@@ -57,7 +57,7 @@ pub struct Glanced {
     pub orientation: u8,
 }
 
-/// What a photo's file says.
+/// Metadata of a photo's file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Opened {
     /// Width and height in pixels.
@@ -96,7 +96,7 @@ pub struct Values {
 pub struct ReportMade {
     /// Style of printed pages.
     pub page_style: String,
-    /// Style of what stands on them.
+    /// Style of the contents.
     pub style: String,
     /// HTML.
     pub body: String,
@@ -144,7 +144,7 @@ impl Situated {
 /// On the way to an adjustment.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Adjusting {
-    /// The initial values are there, with what there is to say about them.
+    /// Initial values are available, with notes about them.
     Oriented(Vec<Note>),
     /// An iteration is done.
     Iteration(Iteration),
@@ -159,19 +159,19 @@ pub struct Adjusted {
     pub adjustment: Vec<Piece>,
 }
 
-/// What a plan begins with.
+/// Start of a plan.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum PlanOf {
     /// The network of one of the papers' experiments.
     Example(String),
-    /// What a project has measured.
+    /// Whether a project has measurements.
     Project(Box<Project>),
 }
 
 /// Sheets of targets, one of them as it looks.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Drawn {
-    /// What each sheet is for.
+    /// Contents of each sheet.
     pub titles: Vec<String>,
     /// Small pictures of the first sheets.
     pub sketches: Vec<String>,
@@ -198,7 +198,7 @@ pub struct Drawn {
 /// A photo of the sample project.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SamplePhotoMade {
-    /// What its file says.
+    /// Metadata of its file.
     pub opened: Opened,
     /// Its targets.
     pub detection: Detection,
@@ -213,11 +213,11 @@ pub struct Unpacked {
     pub names: Vec<String>,
     /// Where the bytes of each photo begin in the file, and how many they are; nothing for one that was packed.
     pub places: Vec<Option<(u64, u64)>>,
-    /// What was damaged and is left out.
+    /// Damaged contents that are left out.
     pub damaged: Vec<Error>,
 }
 
-/// What a project file holds besides photos.
+/// Contents of a project file besides photos.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Content {
     /// The document.

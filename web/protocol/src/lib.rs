@@ -1,4 +1,4 @@
-//! What page and workers say to each other. A task, what is said on its way and what it ends with belong together by
+//! Messages between page and workers. A task, its progress messages and its result belong together by
 //! type; pictures and files travel beside these as bytes.
 
 mod answers;
@@ -14,32 +14,32 @@ use sightline::adjustment::{AdjustOptions, Adjustment, Measured};
 use sightline::calibration::{ComparedModel, Coverage, CrossOptions, CrossValidation, ModelConversion, ModelsOptions};
 use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
-use sightline::exchange::foreign::CameraOptions;
-use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{
     Board, GridNaming, GridOptions, Matching, PhotoTargets, PhotoVectors, PredictOptions, Prediction,
 };
 use sightline::monitoring::{Epoch, Monitoring, Options as MonitoringOptions, Pair};
 use sightline::orient::Note;
-use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
-use sightline::project::{Camera, ColourDifferences, LensColour, PhotoColours, Plan, Project, ReportSettings};
-use sightline::report::plots::Plot;
-use sightline::sheets::SheetOptions;
+use sightline::project::{Camera, Plan, Project, ReportSettings};
 pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
+use sightline_exchange::foreign::CameraOptions;
+use sightline_lab::experiments::{Experiment, ExperimentOptions};
+use sightline_plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
+use sightline_report::plots::Plot;
+use sightline_report::sheets::SheetOptions;
 
 pub use answers::{
     Adjusted, Adjusting, Content, Drawn, Foreign, ForeignCameras, Glanced, Opened, PlanOf, ReportMade, SamplePhotoMade,
     Shown, Situated, Unpacked, Values, Written,
 };
-pub use inside::{Found, Inquiry, InsideOf, Looked, matrices, matrices_from};
+pub use inside::{Found, Inquiry, InsideOf, Looked, Places, factor_bytes, factor_from, matrices, matrices_from};
 pub use pieces::{Long, Piece, from_pieces, written};
 
 /// Work for a worker. The files it needs come with it.
 pub trait Task: Serialize + DeserializeOwned + 'static {
-    /// What is said while it lasts.
+    /// Text while it is running.
     type Progress: Serialize + DeserializeOwned + 'static;
-    /// What it ends with.
+    /// Its end.
     type Answer: Serialize + DeserializeOwned + 'static;
 }
 
@@ -56,10 +56,10 @@ pub enum Said<P, A> {
     Unreadable(String),
 }
 
-/// What is said to a task.
+/// Message to a task.
 pub type SaidTo<T> = Said<<T as Task>::Progress, <T as Task>::Answer>;
 
-/// Of a task that says nothing on its way.
+/// Progress of a task without progress messages.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Nothing {}
 
@@ -82,7 +82,7 @@ impl<S: Read + Seek> Stream for S {}
 /// The answer to a task, with the bytes that belong to it.
 pub type Served<A> = Result<(A, Vec<Vec<u8>>)>;
 
-/// Who does a task, with the files that came along.
+/// The worker of a task, with its files.
 pub trait Service<T: Task> {
     /// Does it.
     ///
@@ -124,7 +124,7 @@ macro_rules! tasks {
             }
 
             impl $part {
-                /// By which a worker knows whose request it is before it is read.
+                /// Tag by which a worker recognises a request before reading it.
                 pub const NAME: &str = stringify!($part);
 
                 /// Has the task done; `say` gets each word on it, written, with the bytes that belong to it.
@@ -221,9 +221,9 @@ pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, Stri
 }
 
 tasks! {
-    /// What is done with a photo.
+    /// Tasks of a photo.
     Photos {
-        /// Find the picture that a photo's file carries of itself, without reading the file; its bytes come along.
+        /// Find the picture that is embedded in a photo's file, without reading the file; its bytes come along.
         Glance { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Option<Glanced>;
         /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
         Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
@@ -254,10 +254,8 @@ tasks! {
         } => Nothing, Shown;
     }
 
-    /// What is done with what photos gave, and all else: few of a session, and of most of the engine.
+    /// Tasks after the detection and all others: few in a session, but they use most of the engine.
     Networks {
-        /// What a camera adds to its parameters for red and blue, from photos of it whose colours were measured apart.
-        DifferColours { /** Whose. */ pub camera: Camera, /** Of its photos. */ pub measured: Vec<PhotoColours> } => Nothing, BTreeMap<LensColour, ColourDifferences>;
         /// Orient what is not oriented and adjust; progress per iteration. The project's text is given as files, in pieces; those of what is oriented and
         /// of the adjustment come along in pieces.
         Adjust { /** The project, a file each. */ pub project: Vec<Piece>, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
@@ -271,7 +269,7 @@ tasks! {
         CompareModels { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: ModelsOptions } => Nothing, Vec<ComparedModel>;
         /// Calibrate a camera from parts of the photos and compare the parts; the network is oriented first where it is not.
         CrossValidate { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: CrossOptions } => Nothing, CrossValidation;
-        /// What the photos of a camera cover.
+        /// Coverage of the image by the targets of a camera's photos.
         CoverPhotos { /** The photos. */ pub project: Project, /** Of which camera. */ pub camera: String } => Nothing, Coverage;
         /// Measure the features of a project at the values that an adjustment with these options gave it.
         MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
@@ -287,7 +285,7 @@ tasks! {
             /** Of the photos. */ pub project: Project,
             /** Of each photo. */ pub targets: Vec<PhotoTargets>,
         } => Vec<Note>, Matching;
-        /// Find where the photos of a project stand, as far as its measurements tell.
+        /// Find where the photos of a project stand, as far as its measurements determine it.
         Situate { /** Measurements and what is known. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Situated;
         /// Predict where a point should be in every oriented photo.
         Predict {
@@ -296,7 +294,7 @@ tasks! {
             /** Which. */ pub point: String,
             /** Of the prediction. */ pub options: PredictOptions,
         } => Nothing, Prediction;
-        /// Write a project file with the photos that come along: what stands before, between and after them comes back.
+        /// Write a project file with the photos that come along: the parts before, between and after them are returned.
         Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
         /// Read a project file; the bytes of photos that were packed come along.
         Unpack {} => Nothing, Unpacked;
@@ -309,6 +307,7 @@ tasks! {
         /// Sort files by content and read those of other programs.
         ReadForeign {
             /** Names of the files. */ pub names: Vec<String>,
+            /** Width and height of the open project's photos by their files. */ pub sizes: BTreeMap<String, [u32; 2]>,
             /** Whether a camera is taken whose model differs by more than 1 px after conversion. */ pub convert: bool,
         } => Nothing, Foreign;
         /// Write a camera for another program; the files' bytes come along, in the order of their names.
@@ -337,9 +336,9 @@ tasks! {
         } => Nothing, Vec<Plot>;
         /// Set a result beside the one before.
         CompareResults {
-            /** What the earlier result was made from. */ pub before: Project,
+            /** Inputs of the earlier result. */ pub before: Project,
             /** The earlier result. */ pub earlier: Adjustment,
-            /** What the later one was made from. */ pub after: Project,
+            /** Inputs of the later result. */ pub after: Project,
             /** The later result. */ pub later: Adjustment,
         } => Nothing, Comparison;
         /// Compare epochs of an object; progress in steps done of all.
@@ -392,8 +391,12 @@ tasks! {
             /** As a PDF. */ pub pdf: bool,
             /** This sheet as SVG. */ pub svg: Option<usize>,
         } => Nothing, Vec<String>;
-        /// Lay an adjustment open after so many steps. A, N and S come along as bytes ([`matrices`]); the answer's own are empty.
-        LookInside { /** What; `None`: the network of the lessons. */ pub of: InsideOf, /** Steps taken. */ pub step: usize } => Nothing, Looked;
+        /// Lay an adjustment open after so many steps. Matrices and numbers come along as bytes ([`matrices`]); the answer's own are empty.
+        LookInside {
+            /** What. */ pub of: InsideOf,
+            /** Steps taken. */ pub step: usize,
+            /** Whether names, blocks and their order come along; they are the same in every step. */ pub names: bool,
+        } => Nothing, Looked;
         /// Explain, compare or simulate something of it.
         Inquire { /** Of what. */ pub of: InsideOf, /** What. */ pub inquiry: Inquiry } => Nothing, Found;
         /// Write its matrices as files in an archive, whose bytes come along.

@@ -10,10 +10,10 @@ use crate::{from_bytes, to_bytes};
 /// Elements of a piece: some 100 kB.
 const ROWS_AT_ONCE: usize = 1000;
 
-/// What a piece of an object's text has.
+/// A piece of an object's text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Piece {
-    /// What is left of the object without long arrays.
+    /// The object without long arrays.
     Frame,
     /// Elements of the object's array of this name, with commas between them.
     Rows(String),

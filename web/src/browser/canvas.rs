@@ -10,6 +10,9 @@ use super::picture::{Picture, Pyramid};
 /// Height of text on a canvas, whatever the zoom.
 pub const TEXT_SIZE: f64 = 12.0;
 
+/// A canvas of the page.
+pub type CanvasElement = HtmlCanvasElement;
+
 /// A canvas ready to be drawn on, cleared.
 pub struct Surface {
     context: CanvasRenderingContext2d,
@@ -91,7 +94,7 @@ impl Surface {
         }
     }
 
-    /// What of a frame is in sight that is mapped to the canvas by `map`: left, top, right, bottom.
+    /// Visible part of a frame that `map` maps to the canvas: left, top, right, bottom.
     pub fn sight(&self, [a, b, c, d, e, f]: Affine) -> [f64; 4] {
         let determinant = a * d - b * c;
         let place = |x: f64, y: f64| {

@@ -144,7 +144,7 @@ pub fn files_of_drop(event: &DragEvent) -> Vec<NamedFile> {
     dropped(event.data_transfer())
 }
 
-/// What an input, text area or select holds.
+/// Value of an input, text area or select.
 pub fn value(event: &Event) -> String {
     let Some(target) = event.target() else { return String::new() };
     if let Some(input) = target.dyn_ref::<HtmlInputElement>() {

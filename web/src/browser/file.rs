@@ -55,7 +55,7 @@ impl Blob {
         self.inner.size()
     }
 
-    /// Whether its bytes are in a person's own file: keeping it at hand takes no room.
+    /// Whether its bytes are in a person's own file: keeping it takes no additional memory.
     pub fn is_own_file(&self) -> bool {
         self.own
     }
@@ -77,7 +77,7 @@ impl Blob {
     }
 }
 
-fn listed(files: Option<FileList>) -> Vec<NamedFile> {
+fn of_list(files: Option<FileList>) -> Vec<NamedFile> {
     let Some(files) = files else { return Vec::new() };
     let mut all: Vec<_> = (0..files.length())
         .filter_map(|i| files.get(i))
@@ -96,7 +96,7 @@ pub(super) fn of_array(files: &JsValue) -> Vec<NamedFile> {
 
 /// The files dropped or pasted with an event, in the order of their names.
 pub fn dropped(transfer: Option<DataTransfer>) -> Vec<NamedFile> {
-    listed(transfer.and_then(|t| t.files()))
+    of_list(transfer.and_then(|t| t.files()))
 }
 
 /// Opens the browser's file chooser; `on_files` gets what was chosen.
@@ -114,7 +114,7 @@ pub fn choose(accept: &str, multiple: bool, on_files: impl FnOnce(Vec<NamedFile>
     }
     let chosen = input.clone();
     let on_change = Closure::once_into_js(move |_: web_sys::Event| {
-        let files = listed(chosen.files());
+        let files = of_list(chosen.files());
         chosen.remove();
         on_files(files);
     });
@@ -127,7 +127,7 @@ pub fn download(name: &str, kind: &str, bytes: &[u8]) -> Result<(), String> {
     download_around(name, kind, &[Bytes(Uint8Array::from(bytes))], &[])
 }
 
-/// The same of a file that is made of pieces with other files between them, which nobody has to hold.
+/// The same of a file that is made of pieces with other files between them, which are not in memory at once.
 pub fn download_around(name: &str, kind: &str, pieces: &[Bytes], between: &[Blob]) -> Result<(), String> {
     let options = BlobPropertyBag::new();
     options.set_type(kind);

@@ -14,10 +14,10 @@ use super::worker::{describe, field, set};
 /// Name of the file beside the page.
 const FILE: &str = "view3d.js";
 
-/// What is drawn; coordinates about the object's middle.
+/// The drawn objects; coordinates relative to the centre of the object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Tells objects apart: another one is looked at as a whole.
+    /// Tells objects apart: another one is shown as a whole.
     pub key: String,
     pub unit: String,
     pub names: Vec<String>,
@@ -48,7 +48,7 @@ pub struct Scene {
     /// Place and vector of the deviations of the chosen feature, and their signs.
     pub sticks: Vec<f32>,
     pub stick_signs: Vec<i8>,
-    pub labels: Vec<Label>,
+    pub labels: Vec<SceneLabel>,
     /// Low and high corner of the points.
     pub bounds: [f32; 6],
     pub size: f64,
@@ -56,22 +56,22 @@ pub struct Scene {
     pub grid: f64,
 }
 
-/// A name at its place: of a feature, or of control that was not used, which is always shown.
+/// A label in the scene: the name of a feature, or of a control point that was not used. The latter is always shown.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub struct SceneLabel {
     pub words: String,
     pub place: [f32; 3],
     pub chosen: bool,
     pub warning: bool,
 }
 
-/// How it is looked at.
+/// Selection, layers and exaggerations of the 3-D view.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct SceneState {
     pub selected: Option<usize>,
     pub photo: Option<usize>,
     pub chosen: Vec<usize>,
-    /// What is shown, by the view's own words.
+    /// The shown objects, as text from the view.
     pub shown: Vec<(&'static str, bool)>,
     /// Exaggeration of ellipsoids, and of vectors.
     pub factor: f64,
@@ -80,7 +80,7 @@ pub struct State {
     pub along: Option<[f64; 3]>,
 }
 
-/// What a click met.
+/// The object under a click.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
     Nothing,
@@ -93,13 +93,13 @@ pub enum Met {
     Lost,
 }
 
-/// The view while it is open; it closes when this goes.
-pub struct View {
+/// Handle of an open 3-D view, which closes when the handle is dropped.
+pub struct SceneView {
     handle: JsValue,
     _tell: Closure<dyn FnMut(String, f64, bool)>,
 }
 
-impl View {
+impl SceneView {
     /// Loads the view and puts it into an element.
     ///
     /// # Errors
@@ -166,7 +166,7 @@ impl View {
         self.call("show", &object);
     }
 
-    pub fn state(&self, state: &State) {
+    pub fn state(&self, state: &SceneState) {
         let object = Object::new();
         let index = |n: Option<usize>| n.map_or(-1.0, |n| n as f64);
         set(&object, "selected", &index(state.selected).into());
@@ -212,7 +212,7 @@ impl View {
     }
 }
 
-impl Drop for View {
+impl Drop for SceneView {
     fn drop(&mut self) {
         self.call("close", &JsValue::UNDEFINED);
     }

@@ -30,12 +30,12 @@ fn window() -> Option<Window> {
 /// many bytes.
 pub fn worker_count(pixels: f64, taken: f64) -> usize {
     let Some(navigator) = window().map(|w| w.navigator()) else { return 1 };
-    // Browsers that do not say (over plain HTTP none does) may be those of a phone.
+    // Browsers that do not report it (none does over plain HTTP) may be on a phone.
     let gigabytes = js_sys::Reflect::get(&navigator, &"deviceMemory".into()).ok().and_then(|m| m.as_f64());
     workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(2.0), pixels, taken)
 }
 
-/// What a worker takes before it has done anything.
+/// Memory of a worker before its first task.
 const MODULE: f64 = 40e6;
 
 /// Processors less those that memory has no room for: a worker has its module and its heap, the file, its luma and what detection
@@ -76,7 +76,7 @@ pub fn prefers_dark() -> bool {
     window().and_then(|w| w.match_media("(prefers-color-scheme: dark)").ok().flatten()).is_some_and(|m| m.matches())
 }
 
-/// A preference of this browser; none where storage is switched off.
+/// A preference of this browser; `None` if storage is switched off.
 pub fn preference(name: &str) -> Option<String> {
     window()?.local_storage().ok()??.get_item(&format!("sightline.{name}")).ok()?
 }
@@ -88,7 +88,7 @@ pub fn set_preference(name: &str, value: &str) {
     }
 }
 
-/// What this window remembers of itself when its page is loaded again; none where storage is switched off.
+/// State of this window that survives a reload of its page; `None` if storage is switched off.
 pub fn visit(name: &str) -> Option<String> {
     window()?.session_storage().ok()??.get_item(&format!("sightline.{name}")).ok()?
 }
@@ -299,7 +299,7 @@ pub fn unique_name() -> String {
     format!("{:x}-{}{}", now() as u64, part(), part())
 }
 
-/// Whether the browser believes that there is no network.
+/// Whether the browser reports that there is no network.
 pub fn is_offline() -> bool {
     window().is_some_and(|w| !w.navigator().on_line())
 }
@@ -314,7 +314,7 @@ pub fn listen_to_network(on_change: impl Fn() + 'static) {
     }
 }
 
-/// What the page's start (`web/start.js`) has to say.
+/// Messages of the page's start (`web/start.js`).
 pub enum Told {
     /// A new build is here, and waits to be agreed to.
     Update,
@@ -324,7 +324,7 @@ pub enum Told {
     Files(Vec<super::file::NamedFile>),
 }
 
-/// Calls `on_told` for what the start has said before, and for what it will say.
+/// Calls `on_told` for past and future messages of the start.
 pub fn listen_to_start(on_told: impl Fn(Told) + 'static) {
     let listener = Closure::<dyn FnMut()>::new(move || {
         let told = js_sys::Reflect::get(&js_sys::global(), &"sightlineTold".into()).unwrap_or_default();
@@ -369,7 +369,7 @@ pub fn moment(milliseconds: f64, language: &str) -> String {
     String::from(date.to_locale_date_string(language, &options))
 }
 
-/// Bytes of this origin in the browser's storage: used, and in all. None where it does not say.
+/// Bytes of this origin in the browser's storage: used, and in all. `None` if it does not report it.
 pub async fn space() -> Option<(f64, f64)> {
     let storage = storage_manager()?;
     let estimate = JsFuture::from(storage.estimate().ok()?).await.ok()?;

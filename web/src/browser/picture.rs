@@ -1,5 +1,5 @@
-//! Pictures for the screen, kept on JavaScript's side. The engine decodes them: a browser would rotate, colour-manage
-//! or refuse them.
+//! Pictures for the screen, stored as JavaScript objects. The engine decodes photos, since a browser would rotate, colour-manage or
+//! refuse them.
 
 use std::rc::Rc;
 
@@ -21,7 +21,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// From red, green, blue, alpha bytes, row by row, unless a worker has made a picture of them.
+    /// From red, green, blue, alpha bytes, row by row, or from the bitmap that a worker has made of them.
     pub async fn from_rgba(bytes: Bytes, width: u32, height: u32) -> Result<Self, String> {
         if let Some(bitmap) = bytes.0.dyn_ref::<ImageBitmap>() {
             return Ok(Self { bitmap: bitmap.clone(), width, height });
@@ -48,7 +48,7 @@ impl Picture {
     }
 }
 
-/// A photo in levels, each half the one before, cut into tiles.
+/// A photo as an image pyramid: each level has half the size of the one before and is cut into tiles.
 #[derive(Clone)]
 pub struct Pyramid {
     pub(super) plan: Rc<Plan>,
@@ -56,7 +56,8 @@ pub struct Pyramid {
     pub(super) tiles: Rc<Tiles>,
 }
 
-/// Tiles that go with the last who has them: the collector sees little of what a bitmap takes, and lets it lie.
+/// Tiles whose bitmaps are closed when the last owner is dropped. The garbage collector would free them late, since it does not count
+/// the memory of a bitmap.
 #[derive(Default)]
 pub(super) struct Tiles(pub(super) Vec<Vec<ImageBitmap>>);
 
@@ -67,7 +68,7 @@ impl Drop for Tiles {
 }
 
 impl Pyramid {
-    /// From the tiles, as a worker has made them; where it could not, from their bytes, one after the other.
+    /// From the tiles in the order of the plan: bitmaps that a worker has made, or bytes if it could not.
     pub async fn from_tiles(plan: Plan, bytes: Vec<Bytes>) -> Result<Self, String> {
         let mut bytes = bytes.into_iter();
         let mut levels = Tiles::default();

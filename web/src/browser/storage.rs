@@ -16,14 +16,14 @@ use super::file::Blob;
 use super::picture::Picture;
 use super::worker::{Bytes, describe, error_words, field, set, start_script, when_ended};
 
-/// What goes along with a call or its answer.
+/// Objects transferred with a call or its answer.
 pub enum Extra {
     Text(String),
     /// A text in pieces.
     Pieces(Vec<Piece>),
     Blob(Blob),
     Picture(Picture),
-    /// What was asked for is not here.
+    /// The requested item does not exist.
     Nothing,
 }
 
@@ -52,7 +52,7 @@ pub struct Storage {
     ended: Rc<Cell<bool>>,
 }
 
-/// The name of the fault of calls that nobody answers, and what is told when the worker has ended by itself.
+/// The name of the error of unanswered calls, and the message when the worker has ended by itself.
 pub const LOST: &str = "Lost";
 const ENDED: &str = "the worker was ended";
 const ENDED_ITSELF: &str = "the storage worker has ended";
@@ -68,7 +68,7 @@ fn give_up(waiting: &RefCell<HashMap<u32, Function>>, words: &str) {
 }
 
 impl Storage {
-    /// Starts it; `on_told` gets what it says without having been asked, and [`LOST`] when it has ended by itself.
+    /// Starts it; `on_told` gets messages that are not answers, and [`LOST`] if it has ended by itself.
     pub fn start(on_told: impl Fn(&str) + 'static) -> Result<Self, String> {
         let worker = start_script("storage.js").map_err(|e| describe(&e))?;
         let waiting = Waiting::default();
@@ -108,7 +108,7 @@ impl Storage {
         Ok(Self { worker, waiting, calls: Rc::default(), ended })
     }
 
-    /// Ends it, with all that it holds: who waits for it, or calls it later, is told that it is lost.
+    /// Ends it and its memory: pending and later calls get an error.
     pub fn end(&self) {
         self.ended.set(true);
         self.worker.terminate();

@@ -21,7 +21,7 @@ impl Bytes {
     }
 }
 
-/// What a worker says.
+/// Message of a worker.
 pub enum Message {
     /// It has started and takes requests.
     Ready,
@@ -36,7 +36,7 @@ pub struct Worker {
     inner: web_sys::Worker,
     _on_message: Closure<dyn FnMut(MessageEvent)>,
     _on_error: Closure<dyn FnMut(ErrorEvent)>,
-    /// Whether nobody has ended it yet.
+    /// Whether it has not been ended yet.
     wanted: Rc<Cell<bool>>,
 }
 
@@ -109,7 +109,7 @@ impl Worker {
     }
 }
 
-/// Calls `work` when the worker that says by `told` what name it holds (`web/storage/life.js`) has ended; false where it says no such thing. The
+/// Calls `work` when the worker that says by `told` what name it holds (`web/storage/life.js`) has ended; false if it says no such thing. The
 /// name is that of a database, which cannot be deleted before, or of a lock, which cannot be had.
 pub(super) fn when_ended(told: &JsValue, work: impl FnOnce() + 'static) -> bool {
     let Some(life) = field(told, "held").as_string() else { return false };
@@ -194,7 +194,7 @@ async fn compile() -> Result<JsValue, JsValue> {
     }
 }
 
-/// What a worker has posted. What is none of its words is a loss: nobody would hear of its task again.
+/// A message of a worker. An unknown message counts as a lost worker, since its task would never end.
 fn read_message(data: &JsValue) -> Message {
     if let Some(reason) = field(data, "crashed").as_string() {
         return Message::Crashed(reason);

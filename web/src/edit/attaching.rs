@@ -1,13 +1,13 @@
 //! Finds the photo of a project to which a file belongs: by SHA-256, else by name if no measurement can be mistaken.
 //!
-//! Cameras restart their numbering and folders repeat names, so that a name alone is no proof. A file whose contents are others than those
+//! Cameras restart their numbering and folders repeat names, so that a name alone does not identify a photo. A file whose contents are others than those
 //! recorded, or a photo with measurements and nothing recorded, is a question; nothing is attached before it is answered.
 
 use std::collections::BTreeSet;
 
 use sightline::project::{Photo, Project};
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// A file that comes in.
 #[derive(Clone, Copy, Debug)]

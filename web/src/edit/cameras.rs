@@ -1,15 +1,14 @@
 //! Cameras and photos: which photos share a camera, what is known of it before any adjustment, what is estimated of it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use sightline::adjustment::AdjustedCamera;
-use sightline::detection::{Channel, Colour, Detection};
 use sightline::exif::{Aberration, LensCorrection, PhotoInfo, Setting};
-use sightline::project::{Camera, ColourDifferences, Interior, LensColour, Parameter, Photo, PhotoColours, Project};
+use sightline::project::{Camera, Interior, Parameter, Photo, Project};
 
 use super::pairs;
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// Photos with the same signature are taken to share one camera and focus.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,9 +17,9 @@ pub struct Signature {
     model: Option<String>,
     focal_length_mm: Option<f64>,
     size: [u32; 2],
-    /// Without a focal length the beginning of the file name stands for the camera, as in 043_0005 and 671_0021.
+    /// Without a focal length the beginning of the file name identifies the camera, as in 043_0005 and 671_0021.
     prefix: Option<String>,
-    /// Whether the camera has straightened them, as far as its note says: what it has not is imaged by another camera.
+    /// Whether the camera corrected their distortion according to its note: corrected and uncorrected photos are of different cameras.
     straightened: bool,
 }
 
@@ -48,7 +47,7 @@ impl Signature {
     }
 }
 
-/// A new camera for photos of this signature, its principal distance from EXIF where that says something.
+/// A new camera for photos of this signature, its principal distance from EXIF if that contains one.
 pub fn camera(signature: &Signature, info: &PhotoInfo, project: &Project) -> Camera {
     let [width, height] = signature.size;
     let mut camera = Camera::new(
@@ -113,7 +112,7 @@ fn initial_c(info: &PhotoInfo, camera: &Camera) -> Option<f64> {
     info.focal_length_mm.filter(|_| camera.pixel_pitch.is_some()).or_else(from_exif)
 }
 
-/// The parameter that stands for the principal distance.
+/// The parameter that is the principal distance.
 pub fn distance_parameter(camera: &Camera) -> Parameter {
     camera.interior.model().distance
 }
@@ -146,10 +145,6 @@ pub fn with_pitch(camera: &Camera, pitch: Option<[f64; 2]>) -> Camera {
         if let Some(sigma) = changed.sigma.get_mut(&parameter) {
             *sigma *= factor;
         }
-        for set in changed.colours.values_mut() {
-            let values = [set.parameters.get_mut(&parameter), set.sigma.get_mut(&parameter)];
-            values.into_iter().flatten().for_each(|value| *value *= factor);
-        }
     }
     changed
 }
@@ -158,7 +153,7 @@ fn camera_mut<'a>(project: &'a mut Project, id: &str) -> Option<&'a mut Camera> 
     project.cameras.iter_mut().find(|c| c.id == id)
 }
 
-/// Gives a camera another pixel pitch; a principal distance that still is what EXIF says follows it.
+/// Gives a camera another pixel pitch; a principal distance that is still the one of EXIF is converted with it.
 pub fn set_pitch(project: &mut Project, id: &str, pitch: Option<[f64; 2]>, info: &PhotoInfo) {
     let Some(camera) = camera_mut(project, id) else { return };
     let untouched = initial_c(info, camera) == camera.interior.get(distance_parameter(camera));
@@ -184,52 +179,11 @@ pub fn set_initial(project: &mut Project, id: &str, parameter: Parameter, value:
     }
 }
 
-/// What a camera adds to its parameters for photos measured in red or blue; nothing: it adds nothing.
-pub fn set_colours(project: &mut Project, id: &str, colours: BTreeMap<LensColour, ColourDifferences>) {
-    if let Some(camera) = camera_mut(project, id) {
-        camera.colours = colours;
-    }
-}
-
 /// A camera of the project with the best that is known of it: its values in the present result, where there is one.
 pub fn as_known(document: &Document, camera: &Camera) -> Camera {
     let of_all = |adjusted: &&AdjustedCamera| adjusted.camera.id == camera.id && adjusted.photo.is_none();
     let found = document.current().and_then(|result| result.adjustment.cameras.iter().find(of_all));
     Camera { interior: found.map_or(camera.interior, |adjusted| adjusted.camera.interior), ..camera.clone() }
-}
-
-/// Photos of a camera whose colours were measured apart.
-pub fn measured_apart(project: &Project, id: &str) -> Vec<PhotoColours> {
-    let of_camera = |photo: &str| project.photos.iter().any(|p| p.id == photo && p.camera == id);
-    project.report.colours.iter().filter(|colours| of_camera(&colours.photo)).cloned().collect()
-}
-
-/// The colour that a photo was measured in, where a lens has parameters of its own for that.
-fn colour_of(channel: Channel, detection: &Detection) -> Option<LensColour> {
-    match (&detection.measured, channel) {
-        (Some(measured), _) => match measured.colour {
-            Some(Colour::Red) => Some(LensColour::Red),
-            Some(Colour::Blue) => Some(LensColour::Blue),
-            _ => None,
-        },
-        (None, Channel::Red) => Some(LensColour::Red),
-        (None, Channel::Blue) => Some(LensColour::Blue),
-        (None, Channel::Grey | Channel::Green) => None,
-    }
-}
-
-/// Whether [`measured_in`] would change nothing.
-pub fn is_measured_in(project: &Project, photo: &str, channel: Channel, detection: &Detection) -> bool {
-    let colour = colour_of(channel, detection);
-    project.photos.iter().filter(|p| p.id == photo).all(|p| p.colour == colour)
-}
-
-/// Notes which colour the centres of a photo were measured in: the channel's, where the photo has colours to choose from.
-pub fn measured_in(project: &mut Project, photo: &str, channel: Channel, detection: &Detection) {
-    let colour = colour_of(channel, detection);
-    if let Some(photo) = project.photos.iter_mut().find(|p| p.id == photo) {
-        photo.colour = colour;
-    }
 }
 
 /// Gives a camera another name.
@@ -278,7 +232,6 @@ pub fn remove_photos(document: &mut Document, photos: &BTreeSet<String>) {
     let project = document.project_mut();
     project.photos.retain(|p| !photos.contains(&p.id));
     project.observations.retain(|o| !photos.contains(&o.photo));
-    project.report.colours.retain(|c| !photos.contains(&c.photo));
     let rig = project.rig.take();
     project.rig = rig.and_then(|rig| rig.without(|id| photos.contains(id))).map(Box::new);
     drop_unused(project);
@@ -352,8 +305,6 @@ pub fn forget_position(project: &mut Project, photo: &str) {
 
 #[cfg(test)]
 mod tests {
-    use sightline::detection::Measured;
-
     use super::*;
 
     const SIZE: [u32; 2] = [2000, 1333];
@@ -459,50 +410,6 @@ mod tests {
         let mut document = Document { project: p.into(), ..Document::default() };
         remove_photos(&mut document, &set(&["1", "2"]));
         assert!(document.project.cameras.is_empty() && document.project.photos.is_empty());
-    }
-
-    #[test]
-    fn a_photo_knows_the_colour_it_was_measured_in() {
-        let mut p = project();
-        let sites = |colour| Detection {
-            measured: Some(Measured { colour: Some(colour), ..Measured::default() }),
-            ..Detection::default()
-        };
-        let cases = [
-            (Channel::Grey, Detection::default(), None),
-            (Channel::Red, Detection::default(), Some(LensColour::Red)),
-            (Channel::Blue, sites(Colour::Blue), Some(LensColour::Blue)),
-            // what the sensor was measured on counts, whatever was asked for
-            (Channel::Red, sites(Colour::Green), None),
-        ];
-        for (channel, detection, wanted) in cases {
-            measured_in(&mut p, "2", channel, &detection);
-            assert_eq!((p.photos[1].colour, p.photos[0].colour), (wanted, None), "{channel:?}");
-        }
-    }
-
-    #[test]
-    fn a_camera_takes_the_colours_of_its_own_photos_and_keeps_them_in_another_unit() {
-        let mut p = project();
-        assign_own(&mut p, &set(&["2"]));
-        p.report.colours = ["1", "2"]
-            .map(|photo| PhotoColours { photo: photo.into(), corner: 1.0, centre: None, red: None, blue: None })
-            .into();
-        let of = |p: &Project, id: &str| measured_apart(p, id).into_iter().map(|c| c.photo).collect::<Vec<_>>();
-        assert_eq!((of(&p, "X"), of(&p, "X 2")), (vec!["1".to_owned()], vec!["2".to_owned()]));
-        let red = ColourDifferences {
-            parameters: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
-            sigma: [(Parameter::K1, 1e-7)].into(),
-        };
-        set_colours(&mut p, "X", [(LensColour::Red, red.clone())].into());
-        assert!(p.cameras[1].colours.is_empty());
-        // millimetres of 0.01 to pixels: lengths a hundredfold, K1 by 1e-4
-        let pixels = with_pitch(&p.cameras[0], None).colours.remove(&LensColour::Red).expect("red");
-        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
-        assert!(near(pixels.parameters[&Parameter::C], 1.0) && near(pixels.parameters[&Parameter::K1], 1e-10));
-        assert!(near(pixels.sigma[&Parameter::K1], 1e-11));
-        set_colours(&mut p, "X", BTreeMap::new());
-        assert!(p.cameras[0].colours.is_empty());
     }
 
     #[test]

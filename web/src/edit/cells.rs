@@ -4,21 +4,23 @@ use std::collections::HashMap;
 
 use sightline::project::{Role, Sigma};
 
-use super::sheet::{Col, Table};
+use super::sheet::Col;
 use super::{cameras, control, points};
+use crate::document::Document;
+use crate::document::Table;
+use crate::document::keys::observation_key;
+use crate::document::keys::observation_of_key;
 use crate::format;
-use crate::store::document::Document;
-use crate::store::selection::{observation_key, observation_of_key};
 
-/// A cell and what it is to hold.
+/// An edit of a cell: the row by its key, the column, and the typed text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
+pub struct CellEdit {
     pub key: String,
     pub col: Col,
     pub typed: String,
 }
 
-/// Why a cell keeps what it has.
+/// Why a cell is not changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
     NoSuchRow,
@@ -28,7 +30,7 @@ pub enum Refusal {
     NotAFlag,
     NotARole,
     NoName,
-    /// Another has the name.
+    /// Another row has this name.
     NameTaken,
     NoSuchCamera,
     NoSuchPoint,
@@ -73,7 +75,7 @@ fn role(typed: &str) -> Result<Role, Refusal> {
     known.map(|(role, _)| *role).ok_or(Refusal::NotARole)
 }
 
-/// Takes cells into a document, finding their rows only once.
+/// Writes cells into a document; the rows are indexed once.
 pub struct Editor<'a> {
     document: &'a mut Document,
     table: Table,
@@ -86,11 +88,11 @@ impl<'a> Editor<'a> {
         Self { document, table, rows }
     }
 
-    /// Takes one cell.
+    /// Writes one cell.
     ///
     /// # Errors
-    /// Why it cannot be taken; the document is as it was then.
-    pub fn set(&mut self, cell: &Cell) -> Result<(), Refusal> {
+    /// The reason for which the value is refused; the document is then unchanged.
+    pub fn set(&mut self, cell: &CellEdit) -> Result<(), Refusal> {
         if !self.table.editable(cell.col) {
             return Err(Refusal::NotEditable);
         }
@@ -109,7 +111,7 @@ impl<'a> Editor<'a> {
         Ok(())
     }
 
-    fn photo(&mut self, at: usize, cell: &Cell) -> Result<bool, Refusal> {
+    fn photo(&mut self, at: usize, cell: &CellEdit) -> Result<bool, Refusal> {
         match cell.col {
             Col::Camera => {
                 let camera = cell.typed.trim();
@@ -128,7 +130,7 @@ impl<'a> Editor<'a> {
         }
     }
 
-    fn camera(&mut self, at: usize, cell: &Cell) -> Result<bool, Refusal> {
+    fn camera(&mut self, at: usize, cell: &CellEdit) -> Result<bool, Refusal> {
         match cell.col {
             Col::Id => {
                 let name = new_name(&cell.typed)?;
@@ -151,7 +153,7 @@ impl<'a> Editor<'a> {
         }
     }
 
-    fn point(&mut self, at: usize, cell: &Cell) -> Result<bool, Refusal> {
+    fn point(&mut self, at: usize, cell: &CellEdit) -> Result<bool, Refusal> {
         let axis = match cell.col {
             Col::X | Col::SigmaX => 0,
             Col::Y | Col::SigmaY => 1,
@@ -191,7 +193,7 @@ impl<'a> Editor<'a> {
         }
     }
 
-    fn observation(&mut self, at: usize, cell: &Cell) -> Result<bool, Refusal> {
+    fn observation(&mut self, at: usize, cell: &CellEdit) -> Result<bool, Refusal> {
         if cell.col == Col::Point {
             let name = new_name(&cell.typed)?;
             let (photo, point) = observation_of_key(&cell.key).ok_or(Refusal::NoSuchRow)?;
@@ -210,7 +212,7 @@ impl<'a> Editor<'a> {
         match cell.col {
             Col::TakesPart => o.enabled = value > 0.0,
             Col::Sigma => o.sigma = Sigma::One(value),
-            // A place that is typed is no target's centre.
+            // A typed position is not the centre of the detected target any more.
             Col::U if o.u != value => (o.u, o.target) = (value, None),
             Col::V if o.v != value => (o.v, o.target) = (value, None),
             _ => {}
@@ -218,7 +220,7 @@ impl<'a> Editor<'a> {
         Ok(false)
     }
 
-    fn distance(&mut self, at: usize, cell: &Cell) -> Result<bool, Refusal> {
+    fn distance(&mut self, at: usize, cell: &CellEdit) -> Result<bool, Refusal> {
         let mut distance = self.document.project.distances[at].clone();
         match cell.col {
             Col::Length => distance.length = positive(&cell.typed)?,
@@ -238,8 +240,8 @@ impl<'a> Editor<'a> {
         Ok(false)
     }
 
-    /// A target gets a name, or loses it.
-    fn identity(&mut self, cell: &Cell) -> Result<bool, Refusal> {
+    /// Names a target, or removes its name.
+    fn identity(&mut self, cell: &CellEdit) -> Result<bool, Refusal> {
         let (photo, number) = observation_of_key(&cell.key).ok_or(Refusal::NoSuchRow)?;
         let number = number.parse::<u32>().map_err(|_| Refusal::NoSuchRow)?;
         let found = self.document.detections.get(photo).and_then(|d| d.target(number));
@@ -275,7 +277,7 @@ fn new_name(typed: &str) -> Result<String, Refusal> {
     Some(typed.trim()).filter(|name| !name.is_empty()).map(str::to_owned).ok_or(Refusal::NoName)
 }
 
-/// Places of rows by their keys.
+/// Indices of rows by their keys.
 fn rows(document: &Document, table: Table) -> HashMap<String, usize> {
     let project = &document.project;
     match table {
@@ -300,8 +302,8 @@ fn rows(document: &Document, table: Table) -> HashMap<String, usize> {
     }
 }
 
-/// What becomes of each cell, tried on a copy; what is the same as before is left out by the caller.
-pub fn tried(document: &Document, table: Table, cells: &[Cell]) -> (Document, Vec<Result<(), Refusal>>) {
+/// Writes the cells to a copy of the document. Returns the copy and the result for each cell.
+pub fn tried(document: &Document, table: Table, cells: &[CellEdit]) -> (Document, Vec<Result<(), Refusal>>) {
     let mut document = document.clone();
     let mut editor = Editor::new(&mut document, table);
     let taken = cells.iter().map(|cell| editor.set(cell)).collect();
@@ -339,11 +341,11 @@ mod tests {
     }
 
     fn set(d: &mut Document, table: Table, key: &str, col: Col, typed: &str) -> Result<(), Refusal> {
-        Editor::new(d, table).set(&Cell { key: key.into(), col, typed: typed.into() })
+        Editor::new(d, table).set(&CellEdit { key: key.into(), col, typed: typed.into() })
     }
 
     #[test]
-    fn cells_take_what_is_valid_and_keep_what_is_not() {
+    fn cells_accept_valid_values_and_refuse_others() {
         let mut d = document();
         let before = d.project.clone();
         for (table, key, col, typed, why) in [
@@ -394,7 +396,7 @@ mod tests {
     #[test]
     fn many_cells_are_tried_on_a_copy() {
         let d = document();
-        let cell = |key: &str, typed: &str| Cell { key: key.into(), col: Col::Id, typed: typed.into() };
+        let cell = |key: &str, typed: &str| CellEdit { key: key.into(), col: Col::Id, typed: typed.into() };
         let (after, taken) = tried(&d, Table::Points, &[cell("p", "x"), cell("p", "y"), cell("q", "x")]);
         assert_eq!(taken, [Ok(()), Err(Refusal::NoSuchRow), Err(Refusal::BothInPhoto("1".into()))]);
         assert_eq!((d.project.points[0].id.as_str(), after.project.points[0].id.as_str()), ("p", "x"));

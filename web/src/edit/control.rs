@@ -2,11 +2,45 @@
 
 use sightline::Error;
 pub use sightline::equipment::has_lengths;
-use sightline::project::{DatumKind, Distance, Point, Project, Role};
+use sightline::project::{DatumKind, Distance, LocalSystem, Origin, Point, Project, Role};
 pub use sightline::units::Unit;
 use sightline::units::factor;
+use sightline_exchange::control_csv::Field;
 
-/// Takes points as control, or as what they say they are, in place of what was known of them. Their coordinates come in
+/// Keeps the system that latitudes and longitudes of a list were converted into: later lists are converted into the same one.
+pub fn set_local_system(project: &mut Project, system: LocalSystem, file: &str) {
+    let made_here = || Box::new(Origin { format: Origin::LIST.into(), ..Origin::default() });
+    let origin = project.origin.get_or_insert_with(made_here);
+    origin.local_system = Some(system);
+    // The files of another program's project are named by themselves.
+    if origin.format == Origin::LIST && !origin.files.iter().any(|known| known == file) {
+        origin.files.push(file.to_owned());
+    }
+}
+
+/// What columns hold once the one at `place` holds `chosen`: no other one holds the same, and where that is a latitude or a longitude, the
+/// column of the other system holds its counterpart.
+pub fn hold(columns: &mut [Option<Field>], place: usize, chosen: Field) {
+    let plane = [Field::X, Field::Y];
+    let angles = [Field::Longitude, Field::Latitude];
+    let (mine, others) = if chosen.is_angle() { (angles, plane) } else { (plane, angles) };
+    let mut elsewhere: Vec<&mut Option<Field>> =
+        columns.iter_mut().enumerate().filter(|(k, _)| *k != place).map(|(_, column)| column).collect();
+    elsewhere.iter_mut().filter(|column| ***column == Some(chosen)).for_each(|column| **column = None);
+    if let Some(axis) = mine.iter().position(|field| *field == chosen) {
+        let counterpart = Some(mine[1 - axis]);
+        for other in [others[1 - axis], others[axis]] {
+            let known = elsewhere.iter().any(|column| **column == counterpart);
+            let then = if known { None } else { counterpart };
+            elsewhere.iter_mut().filter(|column| ***column == Some(other)).for_each(|column| **column = then);
+        }
+    }
+    if let Some(column) = columns.get_mut(place) {
+        *column = Some(chosen);
+    }
+}
+
+/// Imports points as control points, or with the role stated in the list; they replace existing data. Their coordinates come in
 /// `unit`: the first ones give the project its unit, later ones are converted to it. How many.
 ///
 /// # Errors
@@ -31,7 +65,7 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> Res
             None => project.points.push(point),
         }
     }
-    // Three points fix a system: the control system is then what people expect to stand in.
+    // Three points define a system: users then expect the control system.
     let control = project.points.iter().filter(|p| p.role == Role::Control).count();
     if control >= 3 && project.datum.kind == DatumKind::Free && project.datum.points.is_none() {
         project.datum.kind = DatumKind::Control;
@@ -89,7 +123,7 @@ pub fn set_sigma(project: &mut Project, id: &str, axis: usize, sigma: Option<f64
     }
 }
 
-/// What a distance lacks before it can be taken.
+/// Missing input before a distance can be added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DistanceFault {
     SamePoint,
@@ -103,7 +137,7 @@ pub enum DistanceFault {
 /// Adds a measured distance.
 ///
 /// # Errors
-/// What it lacks.
+/// Its missing inputs.
 pub fn add_distance(project: &mut Project, distance: Distance) -> Result<(), DistanceFault> {
     let known = |id: &str| project.points.iter().any(|p| p.id == id);
     if !known(&distance.from) || !known(&distance.to) {
@@ -132,7 +166,7 @@ pub fn check_distance(distance: &Distance) -> Result<(), DistanceFault> {
 /// Changes a distance; its ends, where there is one at this place.
 ///
 /// # Errors
-/// What it would lack; then it stays as it was.
+/// Missing inputs; if there are any, it is not changed.
 pub fn edit_distance(
     project: &mut Project,
     place: usize,
@@ -162,7 +196,7 @@ fn ends(distance: &Distance) -> (String, String) {
     (distance.from.clone(), distance.to.clone())
 }
 
-/// Chooses what the coordinates refer to. Points that were named to carry the datum stay named.
+/// Chooses what the coordinates refer to. Points that were named to define the datum stay named.
 pub fn set_datum(project: &mut Project, kind: DatumKind) {
     project.datum.kind = kind;
 }
@@ -177,6 +211,53 @@ mod tests {
 
     fn take(project: &mut Project, points: Vec<Point>, unit: &str) {
         take_points(project, points, unit).expect("known units");
+    }
+
+    #[test]
+    fn columns_are_of_one_system() {
+        let plane = [Some(Field::Id), Some(Field::X), Some(Field::Y), Some(Field::Z), None];
+        for (place, chosen, wanted) in [
+            (
+                1,
+                Field::Latitude,
+                [Some(Field::Id), Some(Field::Latitude), Some(Field::Longitude), Some(Field::Z), None],
+            ),
+            (
+                1,
+                Field::Longitude,
+                [Some(Field::Id), Some(Field::Longitude), Some(Field::Latitude), Some(Field::Z), None],
+            ),
+            (
+                4,
+                Field::Latitude,
+                [Some(Field::Id), Some(Field::Longitude), None, Some(Field::Z), Some(Field::Latitude)],
+            ),
+            (2, Field::X, [Some(Field::Id), None, Some(Field::X), Some(Field::Z), None]),
+        ] {
+            let mut columns = plane;
+            hold(&mut columns, place, chosen);
+            assert_eq!(columns, wanted, "{place} {chosen:?}");
+        }
+        let mut back = [Some(Field::Id), Some(Field::Latitude), Some(Field::Longitude), Some(Field::Z)];
+        hold(&mut back, 1, Field::X);
+        assert_eq!(back, [Some(Field::Id), Some(Field::X), Some(Field::Y), Some(Field::Z)]);
+    }
+
+    #[test]
+    fn the_local_system_of_a_list_stays_with_the_project() {
+        let system = LocalSystem { latitude: 37.5, longitude: 127.0, height: 30.0, ..LocalSystem::default() };
+        let mut project = Project::default();
+        for file in ["a.csv", "b.csv", "a.csv"] {
+            set_local_system(&mut project, system, file);
+        }
+        let origin = project.origin.expect("an origin");
+        assert_eq!((origin.format.as_str(), origin.local_system, origin.files.len()), (Origin::LIST, Some(system), 2));
+        assert!(!origin.is_foreign());
+        let colmap = Origin { format: "colmap".into(), files: vec!["a.txt".into()], ..Origin::default() };
+        let mut project = Project { origin: Some(Box::new(colmap)), ..Project::default() };
+        set_local_system(&mut project, system, "a.csv");
+        let origin = project.origin.expect("an origin");
+        assert_eq!((origin.format.as_str(), origin.local_system, origin.files.len()), ("colmap", Some(system), 1));
     }
 
     #[test]

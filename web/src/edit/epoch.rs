@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sightline::adjust::apply;
 use sightline::project::{EpochOf, Project, Role};
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// A project for the next epoch: names, control, scale bars, roles, cameras with the calibration that was found, how it is adjusted and reported;
 /// no photos, and nothing that was measured in them. `key` is that of the project as it is kept.
@@ -75,7 +75,7 @@ pub fn date_in(text: &str) -> Option<String> {
     })
 }
 
-/// Names in a list that somebody typed: separated by commas, semicolons or ends of lines, each once.
+/// Names in a typed list: separated by commas, semicolons or ends of lines, each once.
 pub fn names_in(typed: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for name in typed.split([',', ';', '\n', '\t']).map(str::trim).filter(|name| !name.is_empty()) {

@@ -2,7 +2,7 @@
 
 use sightline::equipment::{Calibration, ScaleBar, Use, bars_in};
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// Gives a camera the values of a calibration; whether it is there.
 pub fn use_calibration(document: &mut Document, camera: &str, calibration: &Calibration, how: Use) -> bool {
@@ -38,7 +38,6 @@ mod tests {
             pixel_pitch: None,
             interior: Interior::brown(9000.0),
             sigma: [(Parameter::C, 0.5)].into(),
-            colours: Default::default(),
             remark: String::new(),
             origin: None,
         }

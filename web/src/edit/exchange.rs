@@ -1,8 +1,8 @@
 //! What a camera is written with for other programs: the part of the picture that is measured, and the covariance of its parameters.
 
 use sightline::adjustment::AdjustedCamera;
-use sightline::exchange::conversion::Covariance;
 use sightline::project::Project;
+use sightline_exchange::conversion::Covariance;
 
 /// The rectangle of all measurements in a camera's photos, as a polygon of pixels; `None` if they have no extent.
 pub fn measured_region(project: &Project, camera: &str) -> Option<Vec<[f64; 2]>> {

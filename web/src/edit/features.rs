@@ -8,11 +8,11 @@ use sightline::project::{
 
 use super::natural;
 
-/// Colours of new layers, told apart on white and on black.
+/// Colours of new layers, distinguishable on white and on black.
 const COLOURS: [[u8; 3]; 6] =
     [[0, 110, 200], [200, 90, 0], [0, 140, 70], [180, 0, 140], [130, 110, 0], [120, 120, 120]];
 
-/// What a new feature lacks.
+/// Missing selection for a new feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lacks {
     /// So many chosen points at least.
@@ -32,7 +32,7 @@ pub enum Lacks {
 /// A feature of this kind from chosen points and chosen features.
 ///
 /// # Errors
-/// What it lacks.
+/// Its missing inputs.
 pub fn made(kind: &str, project: &Project, points: &[String], features: &[String]) -> Result<FeatureKind, Lacks> {
     let at_least = |n: usize| if points.len() >= n { Ok(points.to_vec()) } else { Err(Lacks::Points(n)) };
     let ends: Vec<End> =
@@ -93,7 +93,7 @@ fn of_given(given: Vec<GivenPoint>) -> FeatureKind {
 /// A coordinate system of this kind from chosen points and features.
 ///
 /// # Errors
-/// What it lacks.
+/// Its missing inputs.
 pub fn laid(kind: &str, project: &Project, points: &[String], features: &[String]) -> Result<SystemKind, Lacks> {
     let of = |wanted: &str| {
         let all = features.iter().filter_map(|id| project.features.iter().find(|f| f.id == *id));
@@ -160,7 +160,7 @@ pub fn remove(project: &mut Project, id: &str) -> usize {
     before - project.features.len() - usize::from(gone)
 }
 
-/// Gives a feature or a system another name; false where that is taken or empty.
+/// Gives a feature or a system another name; false if that is taken or empty.
 pub fn rename(project: &mut Project, from: &str, to: &str) -> bool {
     let to = to.trim();
     let taken = project.features.iter().any(|f| f.id == to) || project.systems.iter().any(|s| s.id == to);

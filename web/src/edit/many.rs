@@ -5,16 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sightline::project::{Project, Role};
 
-use super::sheet::Table;
 use super::{cameras, natural, points};
-use crate::store::document::Document;
-use crate::store::selection::observation_of_key;
+use crate::document::Document;
+use crate::document::Table;
+use crate::document::keys::observation_of_key;
 
 /// Keys of rows.
-pub type Keys = BTreeSet<String>;
+pub type RowKeys = BTreeSet<String>;
 
 /// Lets rows take part or not: photos, observations, points with all that was measured of them. How many changed.
-pub fn switch(project: &mut Project, table: Table, keys: &Keys, enabled: bool) -> usize {
+pub fn switch(project: &mut Project, table: Table, keys: &RowKeys, enabled: bool) -> usize {
     let mut changed = 0;
     let mut set = |flag: &mut bool| {
         changed += usize::from(*flag != enabled);
@@ -36,7 +36,7 @@ pub fn switch(project: &mut Project, table: Table, keys: &Keys, enabled: bool) -
 }
 
 /// Takes rows out of the document; of targets their names. How many. Cameras go where no photo is of them.
-pub fn delete(document: &mut Document, table: Table, keys: &Keys) -> usize {
+pub fn delete(document: &mut Document, table: Table, keys: &RowKeys) -> usize {
     let before = count(document, table);
     match table {
         Table::Photos => {
@@ -45,7 +45,7 @@ pub fn delete(document: &mut Document, table: Table, keys: &Keys) -> usize {
             cameras::remove_photos(document, &photos);
         }
         Table::Cameras => {
-            let used = document.project.photos.iter().map(|p| p.camera.clone()).collect::<Keys>();
+            let used = document.project.photos.iter().map(|p| p.camera.clone()).collect::<RowKeys>();
             document.project_mut().cameras.retain(|c| used.contains(&c.id) || !keys.contains(&c.id));
         }
         Table::Points | Table::Control => {
@@ -91,7 +91,7 @@ fn count(document: &Document, table: Table) -> usize {
 }
 
 /// Gives points a role. How many have another one now.
-pub fn set_roles(project: &mut Project, ids: &Keys, role: Role) -> usize {
+pub fn set_roles(project: &mut Project, ids: &RowKeys, role: Role) -> usize {
     let mut changed = 0;
     for point in project.points.iter_mut().filter(|p| ids.contains(&p.id) && p.role != role) {
         point.role = role;
@@ -104,7 +104,7 @@ pub fn set_roles(project: &mut Project, ids: &Keys, role: Role) -> usize {
 ///
 /// # Errors
 /// The photo that shows two of them; nothing has changed then.
-pub fn merge(project: &mut Project, ids: &Keys) -> Result<String, String> {
+pub fn merge(project: &mut Project, ids: &RowKeys) -> Result<String, String> {
     let mut there = project.points.iter().filter(|p| ids.contains(&p.id)).collect::<Vec<_>>();
     there.sort_by(|a, b| (a.role == Role::Tie).cmp(&(b.role == Role::Tie)).then_with(|| natural(&a.id, &b.id)));
     let names = there.into_iter().map(|p| p.id.clone()).collect::<Vec<_>>();
@@ -121,8 +121,8 @@ pub fn merge(project: &mut Project, ids: &Keys) -> Result<String, String> {
     Ok(kept.clone())
 }
 
-/// Parts a point: what these photos show becomes a point of its own. Its name; none where nothing or everything would go.
-pub fn split(project: &mut Project, id: &str, photos: &Keys) -> Option<String> {
+/// Parts a point: what these photos show becomes a point of its own. Its name; `None` if nothing or everything would go.
+pub fn split(project: &mut Project, id: &str, photos: &RowKeys) -> Option<String> {
     let (going, staying): (Vec<_>, Vec<_>) =
         project.observations.iter().filter(|o| o.point == id).partition(|o| photos.contains(&o.photo));
     if going.is_empty() || staying.is_empty() {
@@ -226,7 +226,7 @@ pub fn rename_all(project: &mut Project, names: &BTreeMap<String, String>) -> Re
 }
 
 /// Makes cameras one: their photos are of the first. Its name; none below two cameras or where their grids differ.
-pub fn join_cameras(project: &mut Project, ids: &Keys) -> Option<String> {
+pub fn join_cameras(project: &mut Project, ids: &RowKeys) -> Option<String> {
     let cameras = project.cameras.iter().filter(|c| ids.contains(&c.id)).collect::<Vec<_>>();
     let (first, others) = cameras.split_first()?;
     if others.is_empty() || others.iter().any(|c| (c.width, c.height) != (first.width, first.height)) {
@@ -245,7 +245,7 @@ mod tests {
     use sightline::project::{Camera, Distance, Interior, Observation, Photo, Sigma};
 
     use super::*;
-    use crate::store::selection::observation_key;
+    use crate::document::keys::observation_key;
 
     fn seen(photo: &str, point: &str) -> Observation {
         Observation {
@@ -269,7 +269,7 @@ mod tests {
         project
     }
 
-    fn keys(all: &[&str]) -> Keys {
+    fn keys(all: &[&str]) -> RowKeys {
         all.iter().map(|key| (*key).to_owned()).collect()
     }
 

@@ -1,5 +1,5 @@
 //! Edits of the document: plain functions on [`Project`](sightline::project::Project), independent of signals and jobs.
-//! Each does one thing, says what else it did, and refuses what would damage the document. The desk's verbs make them
+//! Each does one thing, returns its side effects, and refuses changes that would damage the document. The desk's actions make them
 //! undoable.
 
 pub mod attaching;

@@ -2,7 +2,7 @@
 
 use sightline::project::{Camera, Project};
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// A camera with the interior orientations of its photos, and nothing else of the document.
 pub fn alone(project: &Project, camera: Camera) -> Project {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use sightline::exif::PhotoInfo;
 
-/// Beginnings that cameras and phones give their files: they say nothing of what was photographed.
+/// Prefixes of file names from cameras and phones: they do not describe the object.
 const OF_CAMERAS: [&str; 20] = [
     "dsc",
     "dscn",
@@ -44,12 +44,12 @@ pub fn project_name(photos: &[(&str, &PhotoInfo)], today: &str, project: &str) -
     }
 }
 
-/// What the names of several files begin with, without their counter; none where that says nothing.
+/// Common prefix of the names of several files, without their counter; `None` if there is no useful one.
 fn common_name(files: &[&str]) -> Option<String> {
     let stem = |file: &&str| file.rsplit_once('.').map_or(*file, |(stem, _)| stem).chars().collect::<Vec<_>>();
     let mut stems = files.iter().map(stem);
     let first = stems.next()?;
-    // Of one photo alone nobody knows where its name ends and its counter begins.
+    // With a single photo, name and counter cannot be separated.
     let length =
         stems.next().map(|second| std::iter::once(second).chain(stems).map(|other| shared(&first, &other)).min())??;
     let common = first[..length].iter().collect::<String>();

@@ -13,7 +13,7 @@ pub fn is_raw(file: &str) -> bool {
     parts(file).1.is_some_and(|ending| RAW.contains(&ending.to_lowercase().as_str()))
 }
 
-/// Whether two files are one shot: of one name, one RAW and one not, and of one time where both say when.
+/// Whether two files are one shot: of one name, one RAW and one not, and with the same time if both have one.
 pub fn same_shot((file, info): (&str, &PhotoInfo), (other, other_info): (&str, &PhotoInfo)) -> bool {
     let name = |file| parts(file).0.to_lowercase();
     let agree = |a: &Option<String>, b: &Option<String>| a.is_none() || b.is_none() || a == b;

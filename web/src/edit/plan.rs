@@ -9,7 +9,7 @@ use sightline::project::{
 };
 use sightline::units::Unit;
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// Parameters that a calibration on the object estimates.
 pub const CALIBRATED: [Parameter; 8] = [
@@ -74,7 +74,7 @@ pub fn begin(project: &mut Project, form: Form, mm: f64) {
     let mut plan = empty(project, mm);
     set_form(&mut plan, form);
     // Targets that the camera cannot measure are no beginning.
-    let wanted = sightline::plan::least_diameter(&plan).map(|least| round_up(least * mm) / mm);
+    let wanted = sightline_plan::least_diameter(&plan).map(|least| round_up(least * mm) / mm);
     if let Some(wanted) = wanted.filter(|wanted| *wanted > diameter_of(&form)) {
         set_form(&mut plan, with_diameter(form, wanted));
     }
@@ -93,7 +93,7 @@ pub fn put(document: &mut Document, mut made: Plan, unit: Option<&str>) {
     project.plan = Some(Box::new(made));
 }
 
-/// Millimetres of a unit; none where it is not known.
+/// Millimetres of a unit; `None` if it is not known.
 pub fn millimetres(unit: &str) -> Option<f64> {
     Unit::named(unit).map(Unit::millimetres)
 }
@@ -151,8 +151,8 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, mm: f64) {
     project.plan = Some(Box::new(plan));
 }
 
-/// A line a point: identifier and coordinates.
-pub fn listed(plan: &Plan, axes: ShownAxes) -> String {
+/// Points of the plan as text, one line per point: identifier and coordinates.
+pub fn points_text(plan: &Plan, axes: ShownAxes) -> String {
     let line = |point: &Point| {
         let [x, y, z] = axes.shown(point.xyz.unwrap_or_default());
         format!("{}, {x}, {y}, {z}\n", point.id)
@@ -261,7 +261,7 @@ pub fn set_control_sigma(plan: &mut Plan, sigma: Option<f64>) {
 
 /// How many of the plan's faces, the first, are its form's.
 pub fn faces_of_form(plan: &Plan) -> usize {
-    plan.form.as_ref().map_or(0, sightline::plan::faces_on).min(plan.faces.len())
+    plan.form.as_ref().map_or(0, sightline_plan::faces_on).min(plan.faces.len())
 }
 
 /// A face from three corners, as "x, y, z, x, y, z, x, y, z": the middle one lies between the two others.
@@ -305,7 +305,7 @@ pub fn set_camera(plan: &mut Plan, camera: Camera) {
 
 /// Puts targets on another form; what names points that are gone goes with them.
 pub fn set_form(plan: &mut Plan, form: Form) {
-    let Ok((points, faces)) = sightline::plan::targets_on(&form) else { return };
+    let Ok((points, faces)) = sightline_plan::targets_on(&form) else { return };
     let own = faces_of_form(plan);
     plan.faces.splice(..own, faces);
     plan.form = Some(form);
@@ -313,7 +313,7 @@ pub fn set_form(plan: &mut Plan, form: Form) {
     drop_unknown(plan);
 }
 
-/// What names points that are gone goes with them.
+/// Removes references to points that no longer exist.
 fn drop_unknown(plan: &mut Plan) {
     let ids: std::collections::HashSet<&str> = plan.points.iter().map(|p| p.id.as_str()).collect();
     plan.distances.retain(|d| ids.contains(d.from.as_str()) && ids.contains(d.to.as_str()));
@@ -322,7 +322,7 @@ fn drop_unknown(plan: &mut Plan) {
     }
 }
 
-/// Whether the form has sizes and counts; how many targets it may have is the engine's to say.
+/// Whether the form has sizes and counts; the engine decides how many targets it may have.
 pub fn is_form(form: &Form) -> bool {
     let size = |values: &[f64]| values.iter().all(|v| *v > 0.0 && *v < 1e9);
     let count = |columns: u32, rows: u32| columns > 0 && rows > 0;
@@ -337,7 +337,7 @@ pub fn is_form(form: &Form) -> bool {
     }
 }
 
-/// A number as a count; 0, which is none, for what is no whole number.
+/// A number as a count; 0 for anything that is not a whole number.
 pub fn counted(number: f64) -> u32 {
     if number.fract() == 0.0 { number as u32 } else { 0 }
 }
@@ -407,7 +407,7 @@ pub fn set_calibrates(plan: &mut Plan, on: bool) {
     for camera in &mut plan.cameras {
         let known = camera.interior.parameters();
         let wanted = if known.contains(&Parameter::C) { CALIBRATED.as_slice() } else { &Parameter::OPENCV };
-        // f stands for fx and fy as one.
+        // f is fx = fy.
         let single = |p: &&Parameter| !matches!(p, Parameter::Fx | Parameter::Fy);
         camera.free = if on { wanted.iter().filter(single).copied().collect() } else { Vec::new() };
         camera.sigma.clear();

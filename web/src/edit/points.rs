@@ -19,7 +19,7 @@ pub fn target_of(observation: &Observation) -> Option<(String, u32)> {
     observation.target.map(|target| (observation.photo.clone(), target))
 }
 
-/// What naming a place did besides.
+/// Side effects of naming a position.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Naming {
     /// The point that the place belonged to before.
@@ -88,7 +88,7 @@ pub fn shared_photo(project: &Project, a: &str, b: &str) -> Option<String> {
     photos(a).intersection(&photos(b)).next().cloned()
 }
 
-/// What renaming a point did.
+/// Result of renaming a point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Renamed {
     /// The point has the new name in so many photos.
@@ -141,7 +141,7 @@ pub fn rename(project: &mut Project, from: &str, to: &str) -> Result<Renamed, St
     Ok(if joined { Renamed::Joined { photos } } else { Renamed::Alone { photos } })
 }
 
-/// What a point knew that the one it became does not.
+/// Data of a merged point that the remaining point lacks.
 fn take_over(kept: &mut Point, old: Point) {
     if kept.role == Role::Tie && old.role != Role::Tie {
         *kept = Point {

@@ -6,7 +6,7 @@ use sightline::matching::{Doubt, Doubtful};
 use sightline::project::{Observation, Sigma};
 
 use super::points::{self, BY_HAND_SIGMA};
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// Whether a place of a photo is a point; without one, which point it is.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use sightline::project::{ReportSettings, Section};
 
-use crate::store::document::{Document, Outcome};
+use crate::document::{AdjustmentResult, Document};
 
 /// Largest picture that is kept in the document, bytes.
 pub const LARGEST_LOGO: usize = 1 << 20;
@@ -17,7 +17,7 @@ pub fn change(document: &mut Document, edit: impl FnOnce(&mut ReportSettings)) {
     edit(&mut document.project_mut().report);
     if let Some(result) = current {
         let input = document.project.clone();
-        document.result = Some(Arc::new(Outcome { input, ..(*result).clone() }));
+        document.result = Some(Arc::new(AdjustmentResult { input, ..(*result).clone() }));
     }
 }
 
@@ -39,10 +39,10 @@ pub enum LogoFault {
     Size,
 }
 
-/// A picture file as the document keeps it.
+/// A picture file as a data URL, as the document stores it.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Why the file cannot be used.
 pub fn logo(file: &[u8]) -> Result<String, LogoFault> {
     let kind = match file {
         [0x89, b'P', b'N', b'G', ..] => "png",
@@ -68,7 +68,7 @@ mod tests {
         .unwrap();
         let mut document = Document::default();
         let input = document.project.clone();
-        document.result = Some(Arc::new(Outcome { oriented: input.clone(), input, adjustment }));
+        document.result = Some(Arc::new(AdjustmentResult { oriented: input.clone(), input, adjustment }));
         document
     }
 

@@ -4,7 +4,7 @@ use sightline::detection::Detection;
 use sightline::project::Project;
 
 use super::targets;
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// The sample with those of its photos that were made: of each, by the name of its file, the digest and what was detected.
 pub fn document(project: &Project, name: &str, made: impl Fn(&str) -> Option<(String, Detection)>) -> Document {

@@ -1,33 +1,19 @@
 //! The document as tables: the content of each cell. Nothing is copied until a row is read, so that a hundred thousand
 //! rows cost no more than their order.
 
+use crate::document::Table;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustedObservation, Given, LeftOutItem, LeftOutKind};
 use sightline::axes::ShownAxes;
 use sightline::project::{Project, Role};
 
 use super::natural;
+use crate::document::keys::Kind;
+use crate::document::keys::observation_key;
+use crate::document::{AdjustmentResult, Document};
 use crate::edit::cameras::distance_parameter;
-use crate::store::document::{Document, Outcome};
-use crate::store::selection::{Kind, observation_key};
-
-/// The tables.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Table {
-    Photos,
-    Cameras,
-    #[default]
-    Points,
-    Observations,
-    Distances,
-    /// Points with given coordinates.
-    Control,
-    /// Targets with their names.
-    Identities,
-}
 
 /// Columns of the tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -85,7 +71,7 @@ fn occurs(text: &str, words: &str) -> bool {
     text.is_empty() || parts.any(|part| part.eq_ignore_ascii_case(text.as_bytes()))
 }
 
-/// What stands in a cell.
+/// Content of a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     Nothing,
@@ -110,7 +96,7 @@ impl Table {
         Self::Identities,
     ];
 
-    /// What its rows are to the selection.
+    /// Kind of selection of its rows.
     pub fn kind(self) -> Kind {
         match self {
             Self::Photos => Kind::Photos,
@@ -149,7 +135,7 @@ impl Table {
         self.columns().iter().map(shown).collect()
     }
 
-    /// Columns that together tell the rows apart.
+    /// Columns that together identify a row.
     pub fn names(self) -> &'static [Col] {
         match self {
             Self::Photos | Self::Cameras | Self::Points | Self::Control => &[Col::Id],
@@ -200,7 +186,7 @@ type Rays = HashMap<String, (usize, usize)>;
 pub struct Sheet {
     pub table: Table,
     document: Document,
-    result: Option<std::sync::Arc<Outcome>>,
+    result: Option<std::sync::Arc<AdjustmentResult>>,
     /// Points that are shown, where these are not all of them.
     places: Option<Vec<u32>>,
     /// Photos and places in their lists of targets.
@@ -298,7 +284,7 @@ impl Sheet {
         (photo, &self.document.detections[photo].targets[*at])
     }
 
-    /// What the selection calls a row.
+    /// Key of a row in the selection.
     pub fn key(&self, row: usize) -> String {
         let project = &self.document.project;
         match self.table {
@@ -555,7 +541,7 @@ impl Value {
             Self::Count(n) => n.to_string(),
             Self::Number(value, _) => value.to_string(),
             Self::Flag(flag) => u8::from(*flag).to_string(),
-            // What the document says.
+            // The value of the document.
             Self::NotUsed => "1".into(),
             Self::Role(Role::Tie) => "tie".into(),
             Self::Role(Role::Control) => "control".into(),

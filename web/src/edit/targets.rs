@@ -1,5 +1,6 @@
 //! Targets and their names: what a new detection, a matching or marks of an earlier measurement do to the document.
 
+use crate::document::rings::Rings;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -9,7 +10,7 @@ use sightline::project::{Observation, Point, Project};
 use sightline::ring_code::Family;
 
 use super::points::{target_of, tidy};
-use crate::store::document::Document;
+use crate::document::Document;
 
 #[cfg(test)]
 mod edits;
@@ -28,24 +29,7 @@ pub fn by_photo(document: &Document) -> Vec<PhotoTargets> {
     document.detections.iter().map(of).collect()
 }
 
-/// What the rings of all photos are codes of.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Rings {
-    /// Of one family, where there are any.
-    Of(Option<Family>),
-    /// Of any of these.
-    OfSeveral(Vec<Family>),
-    /// Of different families.
-    Different,
-}
-
-impl Default for Rings {
-    fn default() -> Self {
-        Self::Of(None)
-    }
-}
-
-/// What a ring is read as by itself: it may be a code of several families, so under "auto" it is one of the family that the photos show,
+/// Reading of a single ring: it may be a code of several families, so under "auto" it is one of the family that the photos show,
 /// and none while that is open.
 pub fn codes_of_one(asked: Codes, rings: &Rings) -> Codes {
     match (asked, rings) {
@@ -55,7 +39,7 @@ pub fn codes_of_one(asked: Codes, rings: &Rings) -> Codes {
     }
 }
 
-/// What a target's ring may be where no code was read: numbers by family, of the photos' own family alone where that is known.
+/// Candidate codes of a target whose code was not read: numbers by family, of the photos' own family alone where that is known.
 pub fn candidates(target: &Target, rings: &Rings) -> BTreeMap<Family, Vec<u32>> {
     let mut candidates = BTreeMap::<Family, Vec<u32>>::new();
     let counts = |family: Family| !matches!(rings, Rings::Of(Some(own)) if *own != family);
@@ -82,14 +66,14 @@ pub fn take_family(document: &mut Document, family: Family) {
     }
 }
 
-/// The targets of a photo that may be named by their codes: no other says anything of the family or of names, and to go through all targets of
+/// The targets of a photo that may be named by their codes: others give no information on the family or names, and to go through all targets of
 /// all photos with each photo that is done would make detection grow with the square of their number.
 fn with_rings(photo: &str, targets: &[Target]) -> PhotoTargets {
     let may = |t: &&Target| t.code.is_some() || t.code_family.is_some() || !t.code_candidates.is_empty();
     PhotoTargets { photo: photo.to_owned(), targets: targets.iter().filter(may).cloned().collect() }
 }
 
-/// What the rings of these detections are codes of, by themselves.
+/// Code family of these detections.
 pub fn rings(detections: &BTreeMap<String, Arc<Detection>>) -> Rings {
     let all = detections.iter().map(|(id, d)| with_rings(id, &d.targets)).collect::<Vec<_>>();
     let coded = name_coded(&all, None);

@@ -9,17 +9,17 @@ use sightline::equipment::{Calibration, ScaleBar, Use};
 use sightline::exif::PhotoInfo;
 use sightline::matching::{Doubt, Doubtful, Mark, Matching, snap};
 use sightline::project::{
-    Camera, ColourDifferences, DatumKind, Distance, Interior, LensColour, Observation, Parameter, Photo, Point,
-    Project, Role, Sigma,
+    Camera, DatumKind, Distance, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma,
 };
 use sightline_protocol::to_text;
 
-use super::cells::{Cell, Editor};
-use super::sheet::{Col, Table};
+use super::cells::{CellEdit, Editor};
+use super::sheet::Col;
 use super::{cameras, control, equipment, many, models, points, questions, targets};
-use crate::store::document::{Change, Document};
-use crate::store::history::History;
-use crate::store::selection::observation_key;
+use crate::document::Table;
+use crate::document::history::History;
+use crate::document::keys::observation_key;
+use crate::document::{Change, Document};
 
 pub type Action = fn(&mut Document);
 
@@ -78,7 +78,6 @@ pub fn document() -> Document {
         distances: vec![Distance { from: "a".into(), to: "b".into(), length: 5.0, sigma: 0.1, check: false }],
         ..Project::default()
     };
-    project.cameras[2].colours = red();
     project.photos[0].position = Some([1.0; 3]);
     project.photos[0].sigma_position = Some([Some(0.1); 3]);
     points::tidy(&mut project);
@@ -113,7 +112,7 @@ pub fn bytes(d: &Document) -> [String; 5] {
     ]
 }
 
-fn keys(all: &[&str]) -> many::Keys {
+fn keys(all: &[&str]) -> many::RowKeys {
     all.iter().map(|key| (*key).to_owned()).collect()
 }
 
@@ -121,13 +120,8 @@ fn set(d: &mut Document, table: Table, cells: &[(&str, Col, &str)]) {
     let mut editor = Editor::new(d, table);
     for (key, col, typed) in cells {
         // Where an action before it has taken the row away, it is refused.
-        let _ = editor.set(&Cell { key: (*key).to_owned(), col: *col, typed: (*typed).to_owned() });
+        let _ = editor.set(&CellEdit { key: (*key).to_owned(), col: *col, typed: (*typed).to_owned() });
     }
-}
-
-fn red() -> BTreeMap<LensColour, ColourDifferences> {
-    let red = ColourDifferences { parameters: [(Parameter::K1, 1e-7)].into(), sigma: [(Parameter::K1, 1e-8)].into() };
-    [(LensColour::Red, red)].into()
 }
 
 fn rename(d: &mut Document, names: BTreeMap<String, String>) {
@@ -135,7 +129,7 @@ fn rename(d: &mut Document, names: BTreeMap<String, String>) {
 }
 
 /// The kinds of action.
-pub const ACTIONS: [(&str, Action); 55] = [
+pub const ACTIONS: [(&str, Action); 53] = [
     ("photos added", |d| {
         cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None, &|_| false);
     }),
@@ -253,7 +247,6 @@ pub const ACTIONS: [(&str, Action); 55] = [
             pixel_pitch: Some([0.004; 2]),
             interior: Interior::brown(35.0),
             sigma: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
-            colours: Default::default(),
             remark: String::new(),
             origin: None,
         };
@@ -266,8 +259,6 @@ pub const ACTIONS: [(&str, Action); 55] = [
             models::take(d, &converted, None);
         }
     }),
-    ("colours taken", |d| cameras::set_colours(d.project_mut(), "l", red())),
-    ("colours forgotten", |d| cameras::set_colours(d.project_mut(), "m", BTreeMap::new())),
     ("scale bars taken", |d| {
         let bar = |from: &str, to: &str| ScaleBar {
             id: format!("{from}-{to}"),

@@ -4,7 +4,7 @@ use sightline::Error;
 use sightline::project::scaled;
 use sightline::units::{self, Unit};
 
-use crate::store::document::Document;
+use crate::document::Document;
 
 /// Whether anything of the document is a length, so that another unit is a question.
 pub fn holds_lengths(document: &Document) -> bool {

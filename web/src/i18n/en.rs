@@ -7,6 +7,7 @@ use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
 pub mod adjusting;
+pub mod background;
 pub mod calibrating;
 pub mod changes;
 pub mod comparing;
@@ -19,7 +20,6 @@ pub mod general;
 pub mod grids;
 pub mod inside;
 pub mod interchange;
-pub mod lasting;
 pub mod lists;
 pub mod modelling;
 pub mod monitoring;
@@ -52,7 +52,7 @@ impl super::Speech for English {
         name.to_owned()
     }
     fn reason(&self, reason: &Reason) -> String {
-        reason.to_string()
+        super::declared::english(reason)
     }
     fn damage(&self, damage: &Damage) -> String {
         damage.to_string()

@@ -4,6 +4,7 @@ use sightline::Error;
 use sightline::error::{Defect, Place};
 
 use super::en::errors::*;
+use super::name_list::name_list;
 use super::speech;
 
 /// An error as a sentence in the language in use.
@@ -24,14 +25,14 @@ pub fn sentence(error: &Error) -> String {
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
         Error::ControlDisagrees { agreeing, disagreeing } if agreeing.is_empty() => {
-            control_disagrees_all(listed(disagreeing))
+            control_disagrees_all(name_list(disagreeing))
         }
         Error::ControlDisagrees { agreeing, disagreeing } => {
-            control_disagrees(listed(disagreeing), agreeing.len(), listed(agreeing))
+            control_disagrees(name_list(disagreeing), agreeing.len(), name_list(agreeing))
         }
         Error::CannotOrient { reason, photos } if photos.is_empty() => speech().degeneracy(reason),
         Error::CannotOrient { reason, photos } => {
-            format!("{} ({} {})", speech().degeneracy(reason), some_photos(), listed(photos))
+            format!("{} ({} {})", speech().degeneracy(reason), some_photos(), name_list(photos))
         }
         Error::Cancelled => stopped().to_owned(),
     };
@@ -72,31 +73,22 @@ fn capitalised(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// At most five names, then how many more there are.
-fn listed(names: &[String]) -> String {
-    let shown = names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
-    match names.len().saturating_sub(5) {
-        0 => shown,
-        more => and_more(shown, more),
-    }
-}
-
 fn things(groups: &[(&str, &Vec<String>)]) -> String {
     let full = groups.iter().filter(|(_, names)| !names.is_empty());
-    full.map(|(kind, names)| format!("{kind} {}", listed(names))).collect::<Vec<_>>().join("; ")
+    full.map(|(kind, names)| format!("{kind} {}", name_list(*names))).collect::<Vec<_>>().join("; ")
 }
 
 fn defect(defect: &Defect) -> String {
     match defect {
         Defect::NoDatum { missing } => no_datum(missing),
-        Defect::TooFewRays { points } => too_few_rays(listed(points)),
-        Defect::PhotoUndetermined { photos } => photo_undetermined(listed(photos)),
-        Defect::NotTied { groups } => not_tied(groups.iter().map(|g| listed(g)).collect::<Vec<_>>().join(" | ")),
-        Defect::ParameterUndetermined { camera, parameters } => parameter_undetermined(camera, listed(parameters)),
+        Defect::TooFewRays { points } => too_few_rays(name_list(points)),
+        Defect::PhotoUndetermined { photos } => photo_undetermined(name_list(photos)),
+        Defect::NotTied { groups } => not_tied(groups.iter().map(name_list).collect::<Vec<_>>().join(" | ")),
+        Defect::ParameterUndetermined { camera, parameters } => parameter_undetermined(camera, name_list(parameters)),
         Defect::Combination { points, photos, parameters } => {
             combination(things(&[(some_points(), points), (some_photos(), photos), (some_parameters(), parameters)]))
         }
-        Defect::OneStation { photos } => all_one_station(listed(photos)),
+        Defect::OneStation { photos } => all_one_station(name_list(photos)),
     }
 }
 

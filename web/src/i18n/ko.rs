@@ -1,15 +1,16 @@
-//! The texts in Korean, as the field speaks: 광속조정, 표정, 잔차, 표준오차, 자유망.
+//! The texts in Korean, in the terms of the field: 광속조정, 표정, 잔차, 표준오차, 자유망.
 //!
 //! `{n}` is a value; `{n:을|를}` is the particle that follows it, as it is read: after a final consonant, or after a vowel.
 
 use sightline::error::{Damage, Lack, PictureKind, Reason, Thing};
 use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
-use sightline::report::texts::particles::after as choose;
+use sightline_report::texts::particles::after as choose;
 
 use super::reasons;
 
 mod adjusting;
+mod background;
 mod calibrating;
 mod changes;
 mod comparing;
@@ -22,7 +23,6 @@ mod general;
 mod grids;
 mod inside;
 mod interchange;
-mod lasting;
 mod lists;
 mod modelling;
 mod monitoring;

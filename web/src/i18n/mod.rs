@@ -3,11 +3,13 @@
 //! The files in `en` declare the texts; those of other languages translate them. A text is a function: used in a view it follows
 //! the language switch by itself, for it reads the language signal. What the engine has words for, its reasons and the language
 //! of its pages, every language says through [`Speech`]. A further language is its texts, its `Speech`, and its lines in the
-//! enum and the macro `spoken` below; pages in it are the engine's (`src/report/texts`).
+//! enum and the macro `spoken` below; pages in it are the engine's (`report/src/texts`).
 
+mod declared;
 mod en;
 pub mod errors;
 mod ko;
+mod name_list;
 mod reasons;
 pub mod text;
 
@@ -17,9 +19,11 @@ use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
 pub use en::{
-    calibrating, comparing, equipment, experiments, first, grids, inside, interchange, lasting, lists, modelling,
+    background, calibrating, comparing, equipment, experiments, first, grids, inside, interchange, lists, modelling,
     monitoring, mounted, object, planning, printing, systematic,
 };
+
+pub use name_list::name_list;
 
 use crate::browser::page;
 
@@ -41,7 +45,7 @@ macro_rules! spoken {
 }
 use spoken;
 
-/// What a language says of the engine's values.
+/// Texts of a language for the engine's values.
 pub trait Speech {
     /// Its tag (BCP 47).
     fn tag(&self) -> &'static str;
@@ -49,7 +53,7 @@ pub trait Speech {
     fn name(&self) -> &'static str;
     /// The engine's own language that is nearest to it, for pages and sheets.
     fn pages(&self) -> ReportLanguage;
-    /// What of another program's file was not kept, by the engine's or the file's own name.
+    /// Contents of another program's file that were not imported, by the engine's or the file's name.
     fn ignored(&self, name: &str) -> String;
     fn reason(&self, reason: &Reason) -> String;
     fn damage(&self, damage: &Damage) -> String;
@@ -124,7 +128,7 @@ pub fn set_language(language: Language) {
     LANGUAGE.with(|l| l.set(language));
 }
 
-/// What is said in a language, for tests.
+/// Texts in a language, for tests.
 #[cfg(test)]
 pub fn in_language<T>(other: Language, said: impl FnOnce() -> T) -> T {
     let before = language();
@@ -147,8 +151,8 @@ type Declared = (&'static str, &'static [&'static str], &'static str);
 /// Declares a part's texts in English, in the file of the part's name: `name: "words";` or, with values, `name(a, b): "words {a} {b:one|many}";`.
 /// Each becomes a function of the part's module, and a method of its trait `Words`, which every language implements.
 macro_rules! declare {
-    ($part:ident { $($name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
-        /// What every language says.
+    ($part:ident { $($(#[$for_function:meta])* $name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
+        /// Texts of every language.
         // A text's name may begin with any word.
         #[allow(clippy::wrong_self_convention)]
         pub trait Words: Sync {
@@ -162,18 +166,20 @@ macro_rules! declare {
             $crate::i18n::spoken!(language)
         }
 
-        $($crate::i18n::declare!(@function $name $(($($value),+))?);)+
+        $($crate::i18n::declare!(@function $(#[$for_function])* $name $(($($value),+))?);)+
 
         $crate::i18n::translate! { English $part { $($name $(($($value),+))? : $text;)+ } }
     };
     (@method $name:ident) => { fn $name(&self) -> &'static str; };
     (@method $name:ident ($($value:ident),+)) => { fn $name(&self, $($value: &dyn std::fmt::Display),+) -> String; };
-    (@function $name:ident) => {
+    (@function $(#[$for_function:meta])* $name:ident) => {
+        $(#[$for_function])*
         pub fn $name() -> &'static str {
             words($crate::i18n::language()).$name()
         }
     };
-    (@function $name:ident ($($value:ident),+)) => {
+    (@function $(#[$for_function:meta])* $name:ident ($($value:ident),+)) => {
+        $(#[$for_function])*
         pub fn $name($($value: impl std::fmt::Display),+) -> String {
             words($crate::i18n::language()).$name($(&$value),+)
         }
@@ -199,7 +205,7 @@ macro_rules! translate {
     };
     (@method $name:ident ($($value:ident),+) $text:literal) => {
         fn $name(&self, $($value: &dyn std::fmt::Display),+) -> String {
-            sightline::report::texts::template::fill($text, &[$((stringify!($value), $value)),+], choose)
+            sightline_report::texts::template::fill($text, &[$((stringify!($value), $value)),+], choose)
         }
     };
 }
@@ -209,7 +215,7 @@ use translate;
 mod tests {
     use std::collections::BTreeSet;
 
-    use sightline::report::texts::template;
+    use sightline_report::texts::template;
 
     use super::*;
 
@@ -234,7 +240,7 @@ mod tests {
                 object::words(language).every_text(),
                 comparing::words(language).every_text(),
                 equipment::words(language).every_text(),
-                lasting::words(language).every_text(),
+                background::words(language).every_text(),
                 monitoring::words(language).every_text(),
                 interchange::words(language).every_text(),
                 lists::words(language).every_text(),

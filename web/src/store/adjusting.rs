@@ -4,16 +4,19 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
+use sightline::Error;
 use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
+use sightline::detection::{Codes, DetectOptions};
+use sightline::orient::Note;
 use sightline::project::Project;
 use sightline_protocol::{Adjust, Adjusted, Adjusting, Long, Match, Piece, from_bytes, written};
 
-use super::document::{self, Change};
 use super::pool::{self, Batch, Failure};
 use super::{Desk, JobKind, Step, Until};
 use crate::browser::file::Blob;
 use crate::browser::worker::Bytes;
 use crate::browser::{page, storage};
+use crate::document::{self, Change};
 use crate::edit::targets;
 use crate::format;
 use crate::i18n::{comparing, first, text};
@@ -29,6 +32,30 @@ struct Rounds {
     count: usize,
 }
 
+/// Options of detection, and what orientation and adjustment reported last.
+#[derive(Clone, Copy)]
+pub struct Processing {
+    pub detect_options: RwSignal<DetectOptions>,
+    /// Notes of the last orientation.
+    pub notes: RwSignal<Vec<Note>>,
+    /// Iterations of the adjustment that is running or was run last.
+    pub iterations: RwSignal<Vec<Iteration>>,
+    /// Why the last adjustment has no result.
+    pub adjust_failure: RwSignal<Option<Error>>,
+}
+
+impl Default for Processing {
+    fn default() -> Self {
+        Self {
+            // Users with coded targets expect them to be read; photos without rings give the same result either way.
+            detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
+            notes: RwSignal::default(),
+            iterations: RwSignal::default(),
+            adjust_failure: RwSignal::default(),
+        }
+    }
+}
+
 impl Desk {
     /// Orients what is not oriented and adjusts everything.
     pub fn adjust(self) {
@@ -38,23 +65,23 @@ impl Desk {
 
     fn adjust_then(self, then: impl Fn(Self) + Clone + 'static) {
         let (input, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
-        self.iterations.set(Vec::new());
-        self.adjust_failure.set(None);
+        self.processing.iterations.set(Vec::new());
+        self.processing.adjust_failure.set(None);
         let most = options.max_iterations;
         let batch = self.start_job(JobKind::Adjusting, most, move || self.keep_last_result());
         let project = input.clone();
-        let on_outcome = move |outcome: pool::Outcome<Adjust>| match outcome {
-            pool::Outcome::Progress(Adjusting::Oriented(notes)) => {
+        let on_outcome = move |outcome: pool::TaskOutcome<Adjust>| match outcome {
+            pool::TaskOutcome::Progress(Adjusting::Oriented(notes)) => {
                 // Where a worker was lost, another begins again.
-                self.iterations.set(Vec::new());
+                self.processing.iterations.set(Vec::new());
                 self.count_job(batch, 0, most);
-                self.notes.set(notes);
+                self.processing.notes.set(notes);
             }
-            pool::Outcome::Progress(Adjusting::Iteration(iteration)) => {
-                self.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
+            pool::TaskOutcome::Progress(Adjusting::Iteration(iteration)) => {
+                self.processing.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
                 self.step_job(batch);
             }
-            pool::Outcome::Done(adjusted, texts) => {
+            pool::TaskOutcome::Done(adjusted, texts) => {
                 let (input, then) = (input.clone(), then.clone());
                 spawn_local(async move {
                     match self.read_result(batch, input, adjusted, texts).await {
@@ -64,13 +91,13 @@ impl Desk {
                     }
                 });
             }
-            pool::Outcome::Failed(failure) => self.fail_to_adjust(failure),
+            pool::TaskOutcome::Failed(failure) => self.fail_to_adjust(failure),
         };
         spawn_local(async move {
             match in_files(&*project, || self.is_at_work(batch)).await {
                 Ok(Some((project, files))) => {
                     let task = Adjust { project, options };
-                    self.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
+                    self.tasks.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
                 }
                 Ok(None) => {}
                 Err(detail) => self.fail_to_adjust(Failure::Lost(detail)),
@@ -78,12 +105,12 @@ impl Desk {
         });
     }
 
-    /// Whether these tasks are what the page waits for, and nobody has cancelled them.
+    /// Whether these tasks are what the page waits for, and they have not been cancelled.
     fn is_at_work(self, batch: Batch) -> bool {
-        self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch))
+        self.tasks.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch))
     }
 
-    /// Takes a result, whose texts are kept as they came; false where it was cancelled while it was read.
+    /// Takes a result, whose texts are kept as they came; false if it was cancelled while it was read.
     async fn read_result(
         self,
         batch: Batch,
@@ -100,12 +127,12 @@ impl Desk {
         self.end_job();
         // What orientation left as it was is there once.
         oriented.share_tables(&input);
-        let outcome = Arc::new(document::Outcome { input, oriented: Arc::new(oriented), adjustment });
-        self.iterations.set(outcome.adjustment.iterations.clone());
+        let outcome = Arc::new(document::AdjustmentResult { input, oriented: Arc::new(oriented), adjustment });
+        self.processing.iterations.set(outcome.adjustment.iterations.clone());
         if self.storage().is_some() {
             let pieces =
                 adjusted.adjustment.into_iter().zip(of_adjustment.into_iter().map(storage::Piece::Bytes)).collect();
-            self.keeper.with_value(|keeper| keeper.book.borrow_mut().came(&outcome, pieces));
+            self.persistence.keeper.with_value(|keeper| keeper.book.borrow_mut().came(&outcome, pieces));
         }
         self.change(Change::Adjusted, |document| document.result = Some(outcome));
         Ok(true)
@@ -115,12 +142,12 @@ impl Desk {
         self.end_job();
         self.show_iterations_of_result();
         if let Failure::Refused(error) = &failure {
-            self.adjust_failure.set(Some(error.clone()));
+            self.processing.adjust_failure.set(Some(error.clone()));
         }
         self.tell_failure(failure);
     }
 
-    /// After a cancelled adjustment the last result stands, with its own iterations, and the page says of what it is.
+    /// After a cancelled adjustment the last result stands, with its own iterations, and the page states to which state it belongs.
     fn keep_last_result(self) {
         self.show_iterations_of_result();
         let (any, current) = self.document.with_untracked(|d| (d.result.is_some(), d.current().is_some()));
@@ -136,7 +163,7 @@ impl Desk {
 
     fn show_iterations_of_result(self) {
         let of_result = self.document.with_untracked(|d| d.result.as_ref().map(|r| r.adjustment.iterations.clone()));
-        self.iterations.set(of_result.unwrap_or_default());
+        self.processing.iterations.set(of_result.unwrap_or_default());
     }
 
     /// Names the targets without a code by where the oriented photos see them.
@@ -161,14 +188,21 @@ impl Desk {
         });
     }
 
-    /// Matches, adjusts and shows the result of a project that nobody has worked on.
+    /// Matches, adjusts and shows the result of a project that the user has not changed.
     pub fn match_then_adjust(self) {
         self.match_then(|desk, _, _| {
-            desk.go(Step::Adjust);
-            desk.adjust_then(|desk| {
+            // What each change draws on the step that is open, and the next step, have tasks of the page of their own.
+            let go = move |step: Step| {
+                spawn_local(async move {
+                    page::breathe().await;
+                    desk.go(step);
+                });
+            };
+            desk.adjust_then(move |desk| {
                 desk.is_pristine();
-                desk.go(Step::Results);
+                go(Step::Results);
             });
+            go(Step::Adjust);
         });
     }
 
@@ -182,19 +216,19 @@ impl Desk {
         });
         let batch = self.start_job(JobKind::Matching, 1, || {});
         let task = Match { project, targets };
-        let on_outcome = move |outcome: pool::Outcome<Match>| match outcome {
-            pool::Outcome::Progress(_) => {}
-            pool::Outcome::Done(matching, _) => {
+        let on_outcome = move |outcome: pool::TaskOutcome<Match>| match outcome {
+            pool::TaskOutcome::Progress(_) => {}
+            pool::TaskOutcome::Done(matching, _) => {
                 self.end_job();
                 let (found, doubtful) = self.take_matching(matching);
                 then(self, found, doubtful);
             }
-            pool::Outcome::Failed(failure) => {
+            pool::TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
     /// Chooses how image coordinates are weighted and what is done about gross errors.

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use sightline::axes::{ShownAxes, UserAxes};
 
 use super::Desk;
-use super::document::Change;
+use crate::document::Change;
 
 impl Desk {
     /// Letters and order of the open project's coordinates.

@@ -9,12 +9,12 @@ use sightline::calibration::{Coverage, CrossOptions, CrossValidation};
 use sightline::project::Project;
 use sightline_protocol::{CoverPhotos, CrossValidate};
 
-use super::document::Document;
-use super::lasting::Stop;
-use super::models::Of;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::models::CameraResult;
+use super::pool::TaskOutcome;
 use super::{Desk, Step};
 use crate::browser::page;
+use crate::document::Document;
 use crate::i18n::calibrating as words;
 
 /// The document with what its last adjustment found, where that belongs to it.
@@ -34,7 +34,7 @@ impl Desk {
         });
     }
 
-    /// What the photos of a camera cover, of the document as it stands.
+    /// Coverage of the image by the targets of a camera's photos, for the present document.
     pub fn coverage_of(self, camera: &str) -> Option<Arc<Coverage>> {
         let covered = self.models.covered.with(|all| all.iter().find(|covered| covered.camera == camera).cloned())?;
         self.document.with(|d| Arc::ptr_eq(&d.project, &covered.project)).then_some(covered.found)
@@ -45,11 +45,11 @@ impl Desk {
         let (of, project) = self.document.with_untracked(|d| (d.project.clone(), with_result(d)));
         let task = CoverPhotos { project, camera: camera.to_owned() };
         let camera = camera.to_owned();
-        let on_outcome = move |outcome: Outcome<CoverPhotos>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Done(found, _) => {
-                let covered = Of { camera: camera.clone(), project: of.clone(), found: Arc::new(found) };
+        let on_outcome = move |outcome: TaskOutcome<CoverPhotos>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Done(found, _) => {
+                let covered = CameraResult { camera: camera.clone(), project: of.clone(), found: Arc::new(found) };
                 self.models.covered.update(|all| {
                     all.retain(|other| other.camera != covered.camera);
                     all.push(covered);
@@ -76,11 +76,11 @@ impl Desk {
         let adjust = AdjustOptions { snooping: false, robust: None, variance_components: None, ..own };
         let options = CrossOptions { camera: Some(camera.to_owned()), adjust, ..CrossOptions::default() };
         let camera = camera.to_owned();
-        let on_outcome = move |outcome: Outcome<CrossValidate>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Done(found, _) => {
-                let crossed = Of { camera: camera.clone(), project: of.clone(), found: Arc::new(found) };
+        let on_outcome = move |outcome: TaskOutcome<CrossValidate>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Done(found, _) => {
+                let crossed = CameraResult { camera: camera.clone(), project: of.clone(), found: Arc::new(found) };
                 self.models.crossed.set(Some(crossed));
             }
         };

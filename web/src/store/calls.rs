@@ -1,11 +1,11 @@
-//! What is asked of the storage's worker and what it answers, and the card that stands for a project in the list.
+//! What is asked of the storage's worker and what it answers, and the card of a project in the list.
 
 use serde::{Deserialize, Serialize};
 
 use super::Step;
-use super::document::Document;
 use crate::browser::page;
 use crate::browser::storage::{Fault, Piece};
+use crate::document::Document;
 
 /// A project in the list.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -53,7 +53,7 @@ pub(super) struct KeptCard {
     pub(super) keys: Vec<String>,
 }
 
-/// What the worker says of a project that it opened.
+/// Answer of the worker for a project that it opened.
 #[derive(Deserialize)]
 pub(super) struct Opened {
     pub(super) notes: Vec<String>,
@@ -63,7 +63,7 @@ pub(super) struct Opened {
     pub(super) damage: Option<Damage>,
 }
 
-/// What was wrong with a journal.
+/// Error of a journal.
 #[derive(Clone, Copy, Deserialize)]
 pub(super) struct Damage {
     /// Nothing is lost.
@@ -79,7 +79,7 @@ impl Opened {
 }
 
 impl Append {
-    /// Whether a journal ends with this: then it was written, though nobody heard of it.
+    /// Whether a journal ends with this: then it was written, though not confirmed.
     pub(super) fn is_last_of(&self, opened: &Opened) -> bool {
         opened.notes.last() == Some(&self.note) && self.parts.iter().all(|(number, _)| *number < opened.next_part)
     }
@@ -110,7 +110,7 @@ pub(super) struct Started {
     pub fresh: bool,
 }
 
-/// Of a call with nothing to say.
+/// Answer of a call without a result.
 #[derive(Serialize)]
 pub(super) struct Plain {}
 
@@ -120,17 +120,17 @@ pub(super) struct Ids<'a> {
 }
 
 #[derive(Serialize)]
-pub(super) struct Keys<'a> {
+pub(super) struct PhotoKeys<'a> {
     pub(super) keys: &'a [String],
 }
 
 /// A call that names a project.
 #[derive(Serialize)]
-pub(super) struct Of<'a> {
+pub(super) struct ProjectId<'a> {
     pub id: &'a str,
 }
 
-/// What the list says of a document.
+/// Entry of a document in the list.
 pub(super) fn card(document: &Document, step: Step) -> Card {
     let current = document.current();
     let passed = current.and_then(|r| r.adjustment.global_test.as_ref()).map(|test| test.passed);

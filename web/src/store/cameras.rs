@@ -8,8 +8,8 @@ use sightline::exif::PhotoInfo;
 use sightline::plausibility;
 use sightline::project::{Parameter, Project};
 
-use super::document::Change;
 use super::{Desk, Selection};
+use crate::document::Change;
 use crate::edit::cameras;
 use crate::format;
 use crate::i18n::{errors, text};
@@ -64,7 +64,7 @@ impl Desk {
     fn exif_of_camera(self, id: &str) -> PhotoInfo {
         let photo =
             self.document.with_untracked(|d| d.project.photos.iter().find(|p| p.camera == id).map(|p| p.id.clone()));
-        let info = photo.and_then(|photo| self.files.with_untracked(|f| f.get(&photo).map(|f| f.info.clone())));
+        let info = photo.and_then(|photo| self.photos.files.with_untracked(|f| f.get(&photo).map(|f| f.info.clone())));
         info.unwrap_or_default()
     }
 
@@ -101,7 +101,7 @@ impl Desk {
         }
     }
 
-    /// Exchanges axes of everything given, or changes the sign of one: what a mirrored network asks for. Orientation begins anew.
+    /// Exchanges axes of everything given, or changes the sign of one: the remedy for a mirrored network. Orientation begins anew.
     pub fn exchange_axes(self, exchange: Exchange) {
         if !self.may_change() {
             return;
@@ -110,8 +110,8 @@ impl Desk {
             let exchanged = plausibility::exchange_axes(&document.project, exchange);
             *document.project_mut() = exchanged;
         });
-        // They were said of the orientation that is no more.
-        self.notes.set(Vec::new());
+        // They refer to the removed orientation.
+        self.processing.notes.set(Vec::new());
     }
 
     /// Lets a camera's parameter be estimated or held.

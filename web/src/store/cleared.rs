@@ -7,8 +7,8 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::calls::{Of, Opened, Started, Starting};
-use super::keeping::Kept;
+use super::calls::{Opened, ProjectId, Started, Starting};
+use super::persistence::Kept;
 use super::{Desk, Until};
 use crate::browser::page;
 use crate::browser::storage::{Fault, LOST, Storage};
@@ -30,15 +30,15 @@ impl Desk {
             match self.started_anew(Some(after)).await {
                 Ok(Some(storage)) => break storage,
                 Ok(None) => {
-                    self.keeper.update_value(|keeper| keeper.anew = false);
-                    return self.kept.set(Kept::Nowhere);
+                    self.persistence.keeper.update_value(|keeper| keeper.anew = false);
+                    return self.persistence.kept.set(Kept::Nowhere);
                 }
                 Err(Fault { name, detail }) => self.tell_unkept(name, detail),
             }
             page::pause(AGAIN_MS).await;
         };
         let lost = self.forget_copies().await;
-        self.keeper.update_value(|keeper| {
+        self.persistence.keeper.update_value(|keeper| {
             keeper.storage = Some(storage);
             keeper.anew = false;
             keeper.book = Rc::default();
@@ -56,26 +56,26 @@ impl Desk {
             0 => text::cleared_under_page().to_owned(),
             _ => text::cleared_with_photos(lost),
         });
-        self.kept.set(Kept::Writing);
+        self.persistence.kept.set(Kept::Writing);
         self.keep_now();
         for wait in LOOKS_MS {
             page::after(wait, move || spawn_local(self.look_again()));
         }
     }
 
-    /// Ends the worker, and what was under way with it; false where that is being done already.
+    /// Ends the worker, and what was under way with it; false if that is being done already.
     async fn end_storage(self) -> bool {
-        let begun = self.keeper.try_update_value(|keeper| !std::mem::replace(&mut keeper.anew, true));
+        let begun = self.persistence.keeper.try_update_value(|keeper| !std::mem::replace(&mut keeper.anew, true));
         if begun != Some(true) {
             return false;
         }
-        if let Some(storage) = self.keeper.try_update_value(|keeper| keeper.storage.take()).flatten() {
+        if let Some(storage) = self.persistence.keeper.try_update_value(|keeper| keeper.storage.take()).flatten() {
             storage.end();
         }
         if !self.follows() {
-            self.kept.set(Kept::Writing);
+            self.persistence.kept.set(Kept::Writing);
         }
-        while self.keeper.with_value(|keeper| keeper.copying || keeper.sending) {
+        while self.persistence.keeper.with_value(|keeper| keeper.copying || keeper.sending) {
             page::pause(20).await;
         }
         true
@@ -101,7 +101,7 @@ impl Desk {
             self.tell_unkept(fault.name, fault.detail);
             page::pause(AGAIN_MS).await;
         };
-        self.keeper.update_value(|keeper| {
+        self.persistence.keeper.update_value(|keeper| {
             keeper.storage = Some(storage);
             keeper.anew = false;
         });
@@ -109,23 +109,23 @@ impl Desk {
         if self.follows() {
             return self.yielded();
         }
-        self.kept.set(Kept::At(page::clock()));
+        self.persistence.kept.set(Kept::At(page::clock()));
         self.keep_now();
     }
 
-    /// Has another worker open the project that is open here. What the one before wrote without saying so is not written again.
+    /// Lets another worker open the open project. Data that the previous worker wrote without confirmation are not written again.
     async fn adopted(self, storage: &Storage) -> Result<(), Fault> {
         let Some(id) = self.open_id() else { return Ok(()) };
-        let opened = match storage.call::<Opened>("open", &Of { id: &id }, Vec::new()).await {
+        let opened = match storage.call::<Opened>("open", &ProjectId { id: &id }, Vec::new()).await {
             Ok((opened, _)) => Some(opened),
             // Nothing of it was written yet.
             Err(Fault { name, .. }) if name == "NotFoundError" => None,
             Err(fault) => return Err(fault),
         };
         if opened.as_ref().is_some_and(|opened| opened.following) {
-            self.kept.set(Kept::Following);
+            self.persistence.kept.set(Kept::Following);
         }
-        self.keeper.update_value(|keeper| {
+        self.persistence.keeper.update_value(|keeper| {
             let whole = opened.filter(|opened| !opened.has_gap());
             match (&whole, keeper.backlog.front()) {
                 (Some(opened), Some(first)) if first.is_last_of(opened) => {
@@ -157,7 +157,7 @@ impl Desk {
 
     /// Photos are taken from where they came; those that were only in the storage are gone. Gives their number.
     async fn forget_copies(self) -> usize {
-        let mut files = self.files.get_untracked();
+        let mut files = self.photos.files.get_untracked();
         let mut lost = Vec::new();
         for (id, file) in &mut files {
             if let Some(original) = file.original.take() {
@@ -172,14 +172,14 @@ impl Desk {
             }
         }
         files.retain(|id, _| !lost.contains(id));
-        self.files.set(files);
+        self.photos.files.set(files);
         lost.len()
     }
 
-    /// Whether what was stored again is there still: a window that nobody could reach may have taken it away.
+    /// Whether what was stored again is there still: an unreachable window may have removed it.
     async fn look_again(self) {
         let Some((storage, id)) = self.storage().zip(self.open_id()) else { return };
-        let checked = storage.call::<IgnoredAny>("check", &Of { id: &id }, Vec::new()).await;
+        let checked = storage.call::<IgnoredAny>("check", &ProjectId { id: &id }, Vec::new()).await;
         if checked.is_err_and(|fault| fault.name == "GoneError") {
             self.keep_anew("noticed").await;
         }

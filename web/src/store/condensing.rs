@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use sightline_protocol::to_text;
 
 use super::Desk;
-use super::calls::{Ids, Of};
-use super::kept::{Note, Replayed, Stack, State, named_in, names_others, replay};
+use super::calls::{Ids, ProjectId};
+use super::journal::{JournalState, Note, Replayed, StackChange, named_in, names_others, replay};
 use crate::browser::page;
 use crate::browser::storage::{Fault, Storage};
 
@@ -26,7 +26,7 @@ const CALM_MS: i32 = 2000;
 /// A part as the journal has it: its number, its kind, and how many characters it takes there.
 pub type Written = (u64, String, u64);
 
-/// What a condensed journal has.
+/// Contents of a condensed journal.
 #[derive(Debug)]
 pub struct Condensed {
     pub note: Note,
@@ -51,12 +51,12 @@ struct Size {
     size: f64,
 }
 
-/// The parts whose texts say which others they name.
+/// The parts whose texts refer to other parts.
 fn naming(parts: &[Written]) -> Vec<u64> {
     parts.iter().filter(|(_, kind, _)| names_others(kind)).map(|(number, ..)| *number).collect()
 }
 
-/// What is kept of a journal: `texts` are those of the parts that name others, `room` is for the history.
+/// Contents kept of a journal: `texts` are those of the parts that name others, `room` is for the history.
 ///
 /// # Errors
 /// A part that cannot be read.
@@ -69,7 +69,7 @@ pub fn condensed(
     let written = parts.iter().map(|(number, kind, size)| (*number, (kind.as_str(), *size))).collect::<HashMap<_, _>>();
     let mut ids = HashSet::new();
     // The parts of a state that are not among these, with all that they name.
-    let of = |state: &State, ids: &HashSet<u64>| -> Result<HashSet<u64>, String> {
+    let of = |state: &JournalState, ids: &HashSet<u64>| -> Result<HashSet<u64>, String> {
         let mut new = HashSet::new();
         let mut open = vec![state.project, state.detections, state.doubtful];
         open.extend(state.result);
@@ -111,7 +111,7 @@ pub fn condensed(
     }
     let stack = |entries: Vec<_>, below: usize, kept: usize| {
         let dropped = entries.len() - kept;
-        Stack { keep: 0, forgotten: below + dropped, add: entries.into_iter().skip(dropped).collect() }
+        StackChange { keep: 0, forgotten: below + dropped, add: entries.into_iter().skip(dropped).collect() }
     };
     let [below_past, below_future] = all.forgotten;
     let note = Note {
@@ -125,9 +125,9 @@ pub fn condensed(
 }
 
 impl Desk {
-    /// Has the journal condensed when it has grown enough, as soon as nobody is at work.
+    /// Condenses the journal when it has grown enough, as soon as no task is running.
     pub(super) fn watch_size(self, size: f64) {
-        let due = self.keeper.try_update_value(|keeper| {
+        let due = self.persistence.keeper.try_update_value(|keeper| {
             let due = !keeper.condensing && size > LEAST.max(GROWTH * keeper.condensed);
             keeper.condensing |= due;
             due
@@ -138,14 +138,14 @@ impl Desk {
     }
 
     fn condense_when_calm(self) {
-        let written = self.keeper.with_value(|keeper| keeper.written);
+        let written = self.persistence.keeper.with_value(|keeper| keeper.written);
         page::after(CALM_MS, move || {
-            if self.keeper.with_value(|keeper| keeper.written) != written || self.unwritten() {
+            if self.persistence.keeper.with_value(|keeper| keeper.written) != written || self.unwritten() {
                 return self.condense_when_calm();
             }
             spawn_local(async move {
                 let size = self.condense().await;
-                self.keeper.update_value(|keeper| {
+                self.persistence.keeper.update_value(|keeper| {
                     keeper.condensing = false;
                     // What could not be condensed is not tried at every edit.
                     keeper.condensed = size.unwrap_or(2.0 * keeper.condensed.max(LEAST));
@@ -159,10 +159,13 @@ impl Desk {
     async fn condense(self) -> Result<f64, Fault> {
         let unfit = |detail: String| Fault { name: "DataError".into(), detail };
         let (storage, id) = self.storage().zip(self.open_id()).ok_or_else(|| unfit("nothing is open".into()))?;
-        let written = self.keeper.with_value(|keeper| keeper.written);
+        let written = self.persistence.keeper.with_value(|keeper| keeper.written);
         let surveyed = survey(&storage, &id).await;
         let condensing = surveyed.and_then(|(Surveyed { notes, parts }, texts)| {
-            let same = self.keeper.with_value(|keeper| keeper.written == written && keeper.id.as_deref() == Some(&id));
+            let same = self
+                .persistence
+                .keeper
+                .with_value(|keeper| keeper.written == written && keeper.id.as_deref() == Some(&id));
             if !same || self.unwritten() || self.follows() {
                 return Err(unfit("it has changed meanwhile".into()));
             }
@@ -170,13 +173,13 @@ impl Desk {
                 replay(&notes).and_then(|all| condensed(all, &parts, &texts, HISTORY)).map_err(unfit)?;
             // Before anything else is written: what the journal will lack is written again when it is needed.
             let condensing = Condensing { id: &id, note: to_text(&note), ids: ids.iter().copied().collect() };
-            self.keeper.with_value(|keeper| keeper.book.borrow_mut().condensed(ids));
+            self.persistence.keeper.with_value(|keeper| keeper.book.borrow_mut().condensed(ids));
             Ok(condensing)
         });
         match condensing {
             Ok(condensing) => Ok(storage.call::<Size>("condense", &condensing, Vec::new()).await?.0.size),
             Err(fault) => {
-                let _ = storage.call::<IgnoredAny>("leave", &Of { id: &id }, Vec::new()).await;
+                let _ = storage.call::<IgnoredAny>("leave", &ProjectId { id: &id }, Vec::new()).await;
                 Err(fault)
             }
         }
@@ -185,7 +188,7 @@ impl Desk {
 
 /// What a journal has, with the texts of those parts that name others.
 async fn survey(storage: &Storage, id: &str) -> Result<(Surveyed, HashMap<u64, String>), Fault> {
-    let (surveyed, _) = storage.call::<Surveyed>("survey", &Of { id }, Vec::new()).await?;
+    let (surveyed, _) = storage.call::<Surveyed>("survey", &ProjectId { id }, Vec::new()).await?;
     let ids = naming(&surveyed.parts);
     let (_, texts) = storage.call::<IgnoredAny>("surveyed", &Ids { ids: &ids }, Vec::new()).await?;
     let texts = ids.into_iter().zip(texts).filter_map(|(number, text)| Some((number, text.text()?))).collect();
@@ -196,11 +199,11 @@ async fn survey(storage: &Storage, id: &str) -> Result<(Surveyed, HashMap<u64, S
 mod tests {
     use std::collections::BTreeMap;
 
-    use super::super::document::{Change, Document};
-    use super::super::history::{Entry, History, documents};
-    use super::super::kept::Book;
-    use super::super::kept::tests::{Journal, renamed};
+    use super::super::journal::Book;
+    use super::super::journal::tests::{Journal, renamed};
     use super::*;
+    use crate::document::history::{History, HistoryEntry, documents};
+    use crate::document::{Change, Document};
 
     /// Condenses a journal as the storage does.
     fn condense(journal: &mut Journal, book: &mut Book, room: u64) {
@@ -215,7 +218,7 @@ mod tests {
         book.condensed(ids);
     }
 
-    fn names(entries: &[Entry]) -> Vec<String> {
+    fn names(entries: &[HistoryEntry]) -> Vec<String> {
         documents(entries, 0).into_iter().flatten().map(|document| document.project.name.clone()).collect()
     }
 
@@ -270,7 +273,7 @@ mod tests {
             history.push(Change::UnitSet, document.clone());
             document = renamed(&document, &step.to_string());
             journal.add(book.note(&document, &history, &files));
-            // A name outside the history: the state before it is needed by nobody.
+            // A name outside the history: the state before it is not needed.
             document = renamed(&document, &format!("{step} renamed"));
             journal.add(book.note(&document, &history, &files));
         }

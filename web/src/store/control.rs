@@ -7,15 +7,15 @@ use leptos::prelude::*;
 use sightline::Error;
 use sightline::axes::{ShownAxes, UserAxes};
 use sightline::error::{Lack, Place};
-use sightline::exchange::control_csv::{Assumption, Basis, Choices, ControlTable, Field, SigmaRule};
-use sightline::exchange::encoding::Encoding;
-use sightline::exchange::lists;
-use sightline::project::{DatumKind, Distance, Point, Project, Role};
+use sightline::project::{DatumKind, Distance, LocalSystem, Point, Project, Role};
 use sightline::units::{self, Unit};
+use sightline_exchange::control_csv::{Assumption, Basis, ControlTable, Field, SigmaRule, TableChoices};
+use sightline_exchange::encoding::Encoding;
+use sightline_exchange::lists;
 
-use super::document::{Change, Document};
 use super::{Asking, Desk, Step};
 use crate::browser::page;
+use crate::document::{Change, Document};
 use crate::edit::control::{self, DistanceFault};
 use crate::edit::unit;
 use crate::format;
@@ -33,18 +33,22 @@ pub struct Pasted {
     pub at: Step,
     /// Its text.
     pub content: String,
-    pub choices: Choices,
+    pub choices: TableChoices,
     pub table: ControlTable,
     /// The unit of its coordinates; none: it has to be asked for.
     pub unit: Option<String>,
     /// The standard error of all points as typed, and why it is not taken.
     pub typed_sigma: (String, Option<Error>),
-    /// What its points are taken as where no column says it; tie: their coordinates are approximate.
+    /// Role of its points if no column gives it; tie: their coordinates are approximate.
     pub role: Role,
     /// Whether it is read by the choices of an earlier list with this heading.
     pub remembered: bool,
     /// Axes of the project that it is for, as it was when the list came; none: it has none of its own.
     pub project_axes: Option<UserAxes>,
+    /// The local system of earlier lists of the project.
+    pub local_system: Option<LocalSystem>,
+    /// Whether the project had given coordinates when the list came.
+    pub beside_others: bool,
     /// Axes in which the project is shown with these points, where someone has chosen them.
     pub chosen_axes: Option<Option<UserAxes>>,
 }
@@ -60,7 +64,7 @@ impl Pasted {
         ShownAxes::of(self.shown())
     }
 
-    /// What each column holds, as many as the text has.
+    /// Content of each column of the text.
     pub fn columns(&self) -> Vec<Option<Field>> {
         let count = self.table.sample.iter().map(Vec::len).max().unwrap_or(0).max(self.table.heading.len());
         let known = self.table.columns().or(self.choices.columns.as_deref()).unwrap_or_default();
@@ -69,14 +73,14 @@ impl Pasted {
         columns
     }
 
-    /// Whether the list itself says its unit.
+    /// Whether the list itself has its unit.
     pub fn unit_of_the_list(&self) -> bool {
         let says =
             |a: &Assumption| matches!(a, Assumption::Unit { unit: Some(_), by: Basis::Heading | Basis::Content });
         self.table.assumptions.iter().any(says)
     }
 
-    /// Whether a column says what each point is taken as.
+    /// Whether a column gives the role of each point.
     pub fn has_roles(&self) -> bool {
         self.table.columns().is_some_and(|columns| columns.contains(&Some(Field::Role)))
     }
@@ -99,6 +103,7 @@ impl Pasted {
     fn read(&mut self) -> Result<(), Error> {
         let mut choices = self.choices.clone();
         choices.project_axes = self.project_axes;
+        choices.local_system = self.local_system;
         if !self.from_file {
             choices.encoding = Some(Encoding::Utf8);
         }
@@ -116,6 +121,11 @@ impl Pasted {
         Project { points: points.into(), ..Project::default() }.scaled(factor).map(|project| project.points.into())
     }
 
+    /// Whether it is converted into a local system while given coordinates of the project are in another one, or may be.
+    pub fn brings_another_system(&self) -> bool {
+        self.beside_others && self.table.local_system().is_some_and(|system| self.local_system != Some(system))
+    }
+
     /// Whether something has to be answered before its points are taken.
     pub fn is_asked(&self) -> bool {
         self.unit.is_none() || self.table.undecided().next().is_some()
@@ -128,24 +138,24 @@ fn reading_key(heading: &[String]) -> Option<String> {
 }
 
 /// The choices that were made for an earlier list with this heading.
-fn remembered(heading: &[String]) -> Option<Choices> {
+fn remembered(heading: &[String]) -> Option<TableChoices> {
     let kept = page::preference(&reading_key(heading)?)?;
     sightline_protocol::from_text(&kept).ok()
 }
 
 /// Remembers how columns, decimal sign and axes of a heading were read, if anything was chosen. Unit and standard error are of one list.
 fn remember(pasted: &Pasted) {
-    let Choices { decimal, axes, columns, .. } = pasted.choices.clone();
+    let TableChoices { decimal, axes, columns, .. } = pasted.choices.clone();
     if let Some(key) = reading_key(&pasted.table.heading)
         && (decimal.is_some() || axes.is_some() || columns.is_some())
     {
-        let kept = Choices { decimal, axes, columns, ..Choices::default() };
+        let kept = TableChoices { decimal, axes, columns, ..TableChoices::default() };
         page::set_preference(&key, &sightline_protocol::to_text(&kept));
     }
 }
 
 impl Desk {
-    /// Reads a list of points that was typed or pasted, to be looked at before it is taken; whether there are any.
+    /// Reads a list of points that was typed or pasted, to be examined before it is taken; whether there are any.
     pub fn read_control(self, source: String, content: &str) -> bool {
         self.read_list(Pasted { source, bytes: Arc::new(content.as_bytes().to_vec()), ..Pasted::default() })
     }
@@ -157,7 +167,11 @@ impl Desk {
 
     fn read_list(self, mut fresh: Pasted) -> bool {
         fresh.role = Role::Control;
-        fresh.project_axes = self.document.with_untracked(|d| d.project.axes);
+        self.document.with_untracked(|d| {
+            fresh.project_axes = d.project.axes;
+            fresh.local_system = d.project.origin.as_ref().and_then(|origin| origin.local_system);
+            fresh.beside_others = d.project.points.iter().any(|p| p.xyz.is_some() && p.role != Role::Tie);
+        });
         fresh.at = self.step.get_untracked();
         if let Err(error) = fresh.read() {
             self.warn_error(error.in_file(&fresh.source));
@@ -177,18 +191,18 @@ impl Desk {
             }
         }
         // What was chosen for the list before is not of this one.
-        self.pasted.set(None);
+        self.intake.pasted.set(None);
         self.show_control(fresh);
         true
     }
 
     /// Reads the list that waits by itself, without the choices of an earlier one.
     pub fn forget_reading(self) {
-        let Some(mut pasted) = self.pasted.get_untracked() else { return };
+        let Some(mut pasted) = self.intake.pasted.get_untracked() else { return };
         if let Some(key) = reading_key(&pasted.table.heading) {
             page::set_preference(&key, "");
         }
-        pasted.choices = Choices::default();
+        pasted.choices = TableChoices::default();
         pasted.remembered = false;
         match pasted.read() {
             Ok(()) => self.show_control(pasted),
@@ -200,11 +214,9 @@ impl Desk {
     pub fn set_column(self, place: usize, field: Option<Field>) {
         self.choose_reading(|choices, columns| {
             let mut columns = columns.to_vec();
-            if field.is_some() {
-                columns.iter_mut().filter(|other| **other == field).for_each(|other| *other = None);
-            }
-            if let Some(column) = columns.get_mut(place) {
-                *column = field;
+            match field {
+                Some(field) => control::hold(&mut columns, place, field),
+                None => columns.iter_mut().skip(place).take(1).for_each(|column| *column = None),
             }
             choices.columns = Some(columns);
         });
@@ -218,7 +230,7 @@ impl Desk {
             Err(error) => (None, Some(error)),
         };
         let typed = typed.to_owned();
-        self.pasted.update(|pasted| {
+        self.intake.pasted.update(|pasted| {
             if let Some(pasted) = pasted {
                 pasted.typed_sigma = (typed, fault);
             }
@@ -227,8 +239,8 @@ impl Desk {
     }
 
     /// Reads the list that waits anew, with an answer to what it leaves open or another choice than what was recognised.
-    pub fn choose_reading(self, choose: impl FnOnce(&mut Choices, &[Option<Field>])) {
-        let Some(mut pasted) = self.pasted.get_untracked() else { return };
+    pub fn choose_reading(self, choose: impl FnOnce(&mut TableChoices, &[Option<Field>])) {
+        let Some(mut pasted) = self.intake.pasted.get_untracked() else { return };
         let columns = pasted.columns();
         choose(&mut pasted.choices, &columns);
         match pasted.read() {
@@ -236,7 +248,7 @@ impl Desk {
             // The list stays as it was read before.
             Err(error) => {
                 self.warn_error(error);
-                self.pasted.update(|_| ());
+                self.intake.pasted.update(|_| ());
             }
         }
     }
@@ -244,12 +256,12 @@ impl Desk {
     fn show_control(self, mut pasted: Pasted) {
         // Coordinates beside others are in their unit unless someone says otherwise; the first ones could be in any.
         let known = self.document.with_untracked(|d| control::has_lengths(&d.project).then(|| d.project.unit.clone()));
-        let chosen = self.pasted.with_untracked(|p| p.as_ref().and_then(|p| p.unit.clone()));
-        // What the list says is no question.
+        let chosen = self.intake.pasted.with_untracked(|p| p.as_ref().and_then(|p| p.unit.clone()));
+        // Values given by the list need no question.
         let own = pasted.table.unit.filter(|_| pasted.unit_of_the_list()).map(|unit| unit.symbol().to_owned());
         pasted.unit = own.or(chosen).or(known);
         // Standard errors in a unit of their own need that of the coordinates.
-        let Choices { sigma, sigma_unit, unit, .. } = &pasted.choices;
+        let TableChoices { sigma, sigma_unit, unit, .. } = &pasted.choices;
         if (sigma.is_some() || sigma_unit.is_some())
             && unit.is_none()
             && pasted.table.unit.is_none()
@@ -260,14 +272,14 @@ impl Desk {
                 return self.warn_error(error);
             }
         }
-        self.pasted.set(Some(pasted));
+        self.intake.pasted.set(Some(pasted));
     }
 
     /// Says in which unit the coordinates waiting to be taken are.
     pub fn set_pasted_unit(self, unit: &str) {
         let chosen = Some(unit.trim().to_owned()).filter(|unit| !unit.is_empty());
         let known = chosen.as_deref().and_then(Unit::named);
-        self.pasted.update(|pasted| {
+        self.intake.pasted.update(|pasted| {
             if let Some(pasted) = pasted {
                 pasted.unit = chosen;
             }
@@ -277,7 +289,7 @@ impl Desk {
 
     /// Takes the rows that were understood.
     pub fn take_control(self) {
-        let Some(pasted) = self.pasted.get_untracked() else { return };
+        let Some(pasted) = self.intake.pasted.get_untracked() else { return };
         let Some(unit) = pasted.unit.clone() else {
             return self.warn_here(|| text::which_unit().to_owned());
         };
@@ -302,8 +314,11 @@ impl Desk {
             Err(error) => return self.warn_error(error),
         };
         after.project_mut().axes = pasted.shown();
+        if let Some(system) = pasted.table.local_system() {
+            control::set_local_system(after.project_mut(), system, &pasted.source);
+        }
         self.change(Change::ControlTaken(count), |document| *document = after);
-        self.pasted.set(None);
+        self.intake.pasted.set(None);
         self.go(Step::Control);
     }
 
@@ -330,7 +345,7 @@ impl Desk {
         });
     }
 
-    /// Adds a measured distance, or says what it lacks.
+    /// Adds a measured distance, or reports the missing input.
     pub fn add_distance(self, from: &str, to: &str, length: &str, sigma: &str) -> Result<(), DistanceFault> {
         if [length, sigma].into_iter().any(|typed| format::ambiguous(typed).is_some()) {
             return Err(DistanceFault::Ambiguous);
@@ -400,7 +415,7 @@ impl Desk {
         let relabel: Rc<dyn Fn()> = Rc::new(relabel);
         let Some(known) = known else {
             let text = Rc::new(move || text::unit_unknown_question(&before, unit.symbol()));
-            self.asking.set(Some(Asking { text, choices: vec![(text::unit_is_right as Text, relabel)] }));
+            self.messages.asking.set(Some(Asking { text, choices: vec![(text::unit_is_right as Text, relabel)] }));
             return;
         };
         let convert: Rc<dyn Fn()> = Rc::new(move || {
@@ -413,7 +428,7 @@ impl Desk {
         let after = format::editable(1000.0 * known.factor(unit));
         let text = Rc::new(move || text::unit_question(known.symbol(), unit.symbol(), after.clone()));
         let choices = vec![(text::unit_convert as Text, convert), (text::unit_relabel as Text, relabel)];
-        self.asking.set(Some(Asking { text, choices }));
+        self.messages.asking.set(Some(Asking { text, choices }));
     }
 }
 

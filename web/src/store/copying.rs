@@ -1,4 +1,4 @@
-//! Copies of the photos in the browser's storage: what found no room there is said for as long as it is so.
+//! Copies of the photos in the browser's storage: photos that did not fit are reported as long as that is so.
 
 use std::collections::HashMap;
 
@@ -6,8 +6,8 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::calls::{Copied, Keys};
-use super::keeping::uncopied_words;
+use super::calls::{Copied, PhotoKeys};
+use super::persistence::uncopied_words;
 use super::{Desk, PhotoFile, Until};
 use crate::browser::file::Blob;
 use crate::browser::page;
@@ -17,28 +17,31 @@ use crate::browser::storage::{Extra, Fault, LOST};
 const AGAIN_MS: f64 = 60_000.0;
 
 impl Desk {
-    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug. What was
+    /// Copies photos that are not kept yet, one after the other; then works on the copies, which cannot be unplugged like a card. What was
     /// done comes first: a photo must not take the room that it needs.
     pub(super) fn copy_photos(self) {
         let Some(storage) = self.storage() else { return };
-        if self.unwritten() || self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
+        if self.unwritten()
+            || self.persistence.keeper.with_value(|keeper| keeper.copying)
+            || self.next_to_copy().is_none()
+        {
             return;
         }
-        self.keeper.update_value(|keeper| keeper.copying = true);
+        self.persistence.keeper.update_value(|keeper| keeper.copying = true);
         spawn_local(async move {
             let (mut kept, mut missed) = (Vec::new(), Vec::new());
             while self.flushed().await {
                 let Some((key, file)) = self.next_to_copy() else { break };
-                self.to_copy.set(self.left_to_copy());
+                self.persistence.to_copy.set(self.left_to_copy());
                 let extras = vec![Extra::Blob(file.content.clone()), Extra::Picture(file.small.clone())];
-                let asked = Keys { keys: std::slice::from_ref(&key) };
+                let asked = PhotoKeys { keys: std::slice::from_ref(&key) };
                 let failure = match storage.call::<Copied>("keep", &asked, extras).await {
                     Ok((Copied { missed, failure }, _)) => (!missed.is_empty()).then(|| failure.unwrap_or_default()),
                     // Its place is taken by another worker, which copies all of them.
                     Err(fault) if fault.name == LOST => break,
                     Err(fault) => Some(fault),
                 };
-                self.keeper.update_value(|keeper| {
+                self.persistence.keeper.update_value(|keeper| {
                     keeper.photos.insert(key.clone());
                 });
                 match failure {
@@ -46,13 +49,14 @@ impl Desk {
                     None => kept.push(key),
                 }
             }
-            self.to_copy.set(0);
-            self.keeper.update_value(|keeper| keeper.copying = false);
-            if let Ok((_, copies)) = storage.call::<IgnoredAny>("photos", &Keys { keys: &kept }, Vec::new()).await {
+            self.persistence.to_copy.set(0);
+            self.persistence.keeper.update_value(|keeper| keeper.copying = false);
+            if let Ok((_, copies)) = storage.call::<IgnoredAny>("photos", &PhotoKeys { keys: &kept }, Vec::new()).await
+            {
                 let copies = copies.into_iter().step_by(2).map(Extra::blob);
                 let copies = kept.iter().cloned().zip(copies).filter_map(|(key, blob)| Some((key, blob?)));
                 let copies = copies.collect::<HashMap<String, Blob>>();
-                self.files.update(|files| {
+                self.photos.files.update(|files| {
                     for file in files.values_mut() {
                         if let Some(copy) = copies.get(&file.key()) {
                             let before = std::mem::replace(&mut file.content, copy.clone());
@@ -61,10 +65,11 @@ impl Desk {
                     }
                 });
             }
-            let told =
-                missed.iter().all(|(key, _)| self.uncopied.with_untracked(|uncopied| uncopied.contains_key(key)));
-            self.keeper.update_value(|keeper| keeper.missed_at = page::now());
-            self.uncopied.update(|uncopied| {
+            let told = missed
+                .iter()
+                .all(|(key, _)| self.persistence.uncopied.with_untracked(|uncopied| uncopied.contains_key(key)));
+            self.persistence.keeper.update_value(|keeper| keeper.missed_at = page::now());
+            self.persistence.uncopied.update(|uncopied| {
                 uncopied.retain(|key, _| !kept.contains(key));
                 uncopied.extend(missed.iter().cloned());
             });
@@ -75,21 +80,21 @@ impl Desk {
         });
     }
 
-    /// Tries again with photos that found no room: what browsers say of free space is no guide.
+    /// Tries again with photos that found no room: the free space that browsers report is not reliable.
     pub(super) fn copy_again(self) {
         self.forget_missed();
         self.copy_photos();
     }
 
     fn forget_missed(self) {
-        self.uncopied.with_untracked(|missed| {
-            self.keeper.update_value(|keeper| keeper.photos.retain(|key| !missed.contains_key(key)));
+        self.persistence.uncopied.with_untracked(|missed| {
+            self.persistence.keeper.update_value(|keeper| keeper.photos.retain(|key| !missed.contains_key(key)));
         });
     }
 
     /// Something was written: after a while, or where it could not be before, there may be room for photos.
     pub(super) fn copy_after_writing(self, room_came: bool) {
-        let waited = self.keeper.with_value(|keeper| page::now() - keeper.missed_at > AGAIN_MS);
+        let waited = self.persistence.keeper.with_value(|keeper| page::now() - keeper.missed_at > AGAIN_MS);
         if room_came || waited {
             self.forget_missed();
         }
@@ -98,16 +103,17 @@ impl Desk {
 
     /// How many photos of the project are in this page alone, and why.
     pub fn not_copied(self) -> Option<(usize, Fault)> {
-        let uncopied = self.uncopied.get();
+        let uncopied = self.persistence.uncopied.get();
         let missed = self
+            .photos
             .files
             .with(|files| files.values().filter_map(|file| uncopied.get(&file.key()).cloned()).collect::<Vec<_>>());
         Some((missed.len(), missed.first()?.clone()))
     }
 
     fn next_to_copy(self) -> Option<(String, PhotoFile)> {
-        self.files.with_untracked(|files| {
-            self.keeper.with_value(|keeper| {
+        self.photos.files.with_untracked(|files| {
+            self.persistence.keeper.with_value(|keeper| {
                 let keyed = files.values().map(|file| (file.key(), file));
                 keyed.into_iter().find(|(key, _)| !keeper.photos.contains(key)).map(|(key, file)| (key, file.clone()))
             })
@@ -115,8 +121,10 @@ impl Desk {
     }
 
     fn left_to_copy(self) -> usize {
-        self.files.with_untracked(|files| {
-            self.keeper.with_value(|keeper| files.values().filter(|file| !keeper.photos.contains(&file.key())).count())
+        self.photos.files.with_untracked(|files| {
+            self.persistence
+                .keeper
+                .with_value(|keeper| files.values().filter(|file| !keeper.photos.contains(&file.key())).count())
         })
     }
 }

@@ -6,19 +6,20 @@ use serde::Serialize;
 use serde::de::IgnoredAny;
 use sightline::adjustment::AdjustedCamera;
 use sightline::equipment::{Calibration, Equipment, HEAD, KnownCamera, ScaleBar, Use, bars_in};
-use sightline::exchange::encoding;
 use sightline::exif::PhotoInfo;
+use sightline::project::Origin;
+use sightline_exchange::encoding;
 
 use super::calls::Plain;
-use super::document::Change;
 use super::{Desk, Step, Until};
 use crate::browser::file::{self, NamedFile};
 use crate::browser::page;
+use crate::document::Change;
 use crate::edit;
 use crate::format;
 use crate::i18n::{equipment as words, text};
 
-/// What is known of equipment here.
+/// State of the equipment.
 #[derive(Clone, Copy, Default)]
 pub struct Equipped {
     pub all: RwSignal<Equipment>,
@@ -40,7 +41,7 @@ pub struct TypedBar {
 }
 
 #[derive(Serialize)]
-struct Words<'a> {
+struct EquipmentText<'a> {
     words: &'a str,
 }
 
@@ -71,7 +72,7 @@ impl Desk {
             return self.say(true, Until::NextWork, || words::not_kept().to_owned());
         };
         spawn_local(async move {
-            if storage.call::<IgnoredAny>("setEquipment", &Words { words: &text }, Vec::new()).await.is_err() {
+            if storage.call::<IgnoredAny>("setEquipment", &EquipmentText { words: &text }, Vec::new()).await.is_err() {
                 self.say(true, Until::NextWork, || words::not_kept().to_owned());
             }
         });
@@ -110,7 +111,7 @@ impl Desk {
         }
     }
 
-    /// Keeps a scale bar as typed, in place of one of the same name. False, and said why, where it cannot be.
+    /// Keeps a scale bar as typed, in place of one of the same name. Returns false, with a message, if it is invalid.
     pub fn keep_bar(self, typed: &TypedBar) -> bool {
         let number = |text: &str| {
             let number = format::parse(text);
@@ -144,13 +145,15 @@ impl Desk {
         true
     }
 
-    /// What the photos of a camera say, and their size.
+    /// Metadata of the photos of a camera, and their size.
     fn photos_say(self, camera: &str) -> PhotoInfo {
         let photos = self.document.with(|d| {
             let of = d.project.photos.iter().filter(|p| p.camera == camera);
             of.map(|p| p.id.clone()).collect::<Vec<_>>()
         });
-        self.files.with(|files| photos.iter().find_map(|id| files.get(id)).map(|f| f.info.clone()).unwrap_or_default())
+        self.photos
+            .files
+            .with(|files| photos.iter().find_map(|id| files.get(id)).map(|f| f.info.clone()).unwrap_or_default())
     }
 
     /// The cameras of the present result that could be kept: those with one interior orientation for all photos.
@@ -161,7 +164,7 @@ impl Desk {
         })
     }
 
-    /// Keeps what the present result says of a camera.
+    /// Stores the calibration of a camera from the present result.
     pub fn keep_calibration(self, id: &str) {
         let adjusted = untrack(|| self.adjusted_cameras()).into_iter().find(|adjusted| adjusted.camera.id == id);
         let Some(adjusted) = adjusted else { return };
@@ -186,7 +189,11 @@ impl Desk {
                 let (id, took) = (known.id.clone(), known.took(&info, size));
                 // Files of other programs name no camera: theirs are offered by size alone.
                 let fits = known.model.is_none() && [known.width, known.height] == size;
-                let offered = known.calibrations.iter().rev().filter(|c| took || fits && c.origin.is_some());
+                let offered = known
+                    .calibrations
+                    .iter()
+                    .rev()
+                    .filter(|c| took || fits && c.origin.as_deref().is_some_and(Origin::is_foreign));
                 offered.map(|c| (id.clone(), c.clone())).collect::<Vec<_>>()
             };
             all.cameras.iter().flat_map(of).collect()

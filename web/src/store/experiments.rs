@@ -4,21 +4,21 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::experiments::{Experiment, ExperimentOptions, NAMES};
 use sightline::project::Project;
+use sightline_lab::experiments::{Experiment, ExperimentOptions, NAMES};
 use sightline_protocol::{ExportExperiment, RunExperiment};
 
-use super::document::Document;
-use super::lasting::Stop;
+use super::background::Stop;
 use super::plates::Plates;
-use super::pool::Outcome;
+use super::pool::{Batch, TaskOutcome};
 use super::{Desk, JobKind, Selection, Step};
 use crate::browser::page;
-use crate::i18n::lasting;
+use crate::document::Document;
+use crate::i18n::background;
 
-/// What an experiment gave, with what it was run on.
+/// Result of an experiment, with its options.
 #[derive(Clone, Debug)]
-pub struct Ran {
+pub struct ExperimentRun {
     pub options: ExperimentOptions,
     pub experiment: Experiment,
     /// How long it took, seconds.
@@ -31,7 +31,9 @@ pub struct Experiments {
     /// Name of the one that is shown.
     pub shown: RwSignal<&'static str>,
     options: RwSignal<BTreeMap<&'static str, ExperimentOptions>>,
-    ran: RwSignal<BTreeMap<&'static str, Arc<Ran>>>,
+    ran: RwSignal<BTreeMap<&'static str, Arc<ExperimentRun>>>,
+    /// The last automatic run.
+    by_itself: StoredValue<Option<Batch>>,
     pub plates: Plates,
 }
 
@@ -41,13 +43,14 @@ impl Default for Experiments {
             shown: RwSignal::new(NAMES[0]),
             options: RwSignal::default(),
             ran: RwSignal::default(),
+            by_itself: StoredValue::new(None),
             plates: Plates::default(),
         }
     }
 }
 
 impl Experiments {
-    /// What is varied of an experiment.
+    /// Varied inputs of an experiment.
     pub fn options(self, name: &str) -> ExperimentOptions {
         self.options.with(|all| all.get(name).cloned().unwrap_or_default())
     }
@@ -57,8 +60,8 @@ impl Experiments {
         self.options.update(|all| edit(all.entry(name).or_default()));
     }
 
-    /// What the last run gave, whether or not something was varied since.
-    pub fn ran(self, name: &str) -> Option<Arc<Ran>> {
+    /// Result of the last run, even if inputs have changed since.
+    pub fn ran(self, name: &str) -> Option<Arc<ExperimentRun>> {
         self.ran.with(|all| all.get(name).cloned())
     }
 
@@ -67,8 +70,8 @@ impl Experiments {
         self.ran(name).is_none() && self.options(name) == ExperimentOptions::default()
     }
 
-    /// What the last run gave, where it was run on what is chosen now.
-    pub fn current(self, name: &str) -> Option<Arc<Ran>> {
+    /// Result of the last run, if its inputs are the present ones.
+    pub fn current(self, name: &str) -> Option<Arc<ExperimentRun>> {
         self.ran(name).filter(|ran| ran.options == self.options(name))
     }
 }
@@ -84,41 +87,55 @@ impl Desk {
     /// Shows an experiment with its figures: what has never run is run as the paper has it, in place of another that is still running.
     pub fn show_experiment(self, name: &'static str) {
         let is_running =
-            || self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.kind == JobKind::Experiment));
+            || self.tasks.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.kind == JobKind::Experiment));
         if is_running() && self.experiments.shown.get_untracked() != name {
             self.cancel();
         }
         self.experiments.shown.set(name);
         self.step.set(Step::Experiments);
         page::set_hash(&format!("{}/{name}", Step::Experiments.name()));
-        if self.job.with_untracked(Option::is_none) && untrack(|| self.experiments.is_untouched(name)) {
-            self.run_experiment();
+        if self.tasks.job.with_untracked(Option::is_none) && untrack(|| self.experiments.is_untouched(name)) {
+            let batch = self.start_experiment();
+            self.experiments.by_itself.set_value(Some(batch));
+        }
+    }
+
+    /// Stops an experiment that runs by itself: it must not keep a person's own work waiting. It runs again when its page is shown again.
+    pub(super) fn stop_what_runs_by_itself(self) {
+        let running = self.tasks.job.with_untracked(|job| job.as_ref().map(|job| job.batch));
+        if running.is_some() && running == self.experiments.by_itself.get_value() {
+            self.cancel();
         }
     }
 
     /// Runs the experiment that is shown, in a worker.
     pub fn run_experiment(self) {
+        self.start_experiment();
+    }
+
+    fn start_experiment(self) -> Batch {
         let name = self.experiments.shown.get_untracked();
         let options = untrack(|| self.experiments.options(name));
         let began = page::now();
         let batch = self.start_job(JobKind::Experiment, 1, || {});
         let task = RunExperiment { name: name.to_owned(), options: options.clone() };
-        let on_outcome = move |outcome: Outcome<RunExperiment>| match outcome {
-            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
-            Outcome::Done(experiment, _) => {
+        let on_outcome = move |outcome: TaskOutcome<RunExperiment>| match outcome {
+            TaskOutcome::Progress((done, of)) => self.count_job(batch, done, of),
+            TaskOutcome::Done(experiment, _) => {
                 self.end_job();
                 let seconds = (page::now() - began) / 1000.0;
-                let ran = Ran { options: options.clone(), experiment, seconds };
+                let ran = ExperimentRun { options: options.clone(), experiment, seconds };
                 self.experiments.ran.update(|all| {
                     all.insert(name, Arc::new(ran));
                 });
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        batch
     }
 
     /// Puts the experiment's project on the desk.
@@ -136,10 +153,10 @@ impl Desk {
         let first = project.photos.first().map(|photo| photo.id.clone());
         self.begin(Document { project: project.into(), ..Document::default() });
         self.is_pristine();
-        self.iterations.set(Vec::new());
+        self.processing.iterations.set(Vec::new());
         self.forget_waiting();
         // Reduced plates lie on a grid of their own, not on the pixels of a scan.
-        self.files.set(BTreeMap::new());
+        self.photos.files.set(BTreeMap::new());
         self.selection.set(Selection { photo: first, ..Selection::default() });
     }
 
@@ -154,11 +171,11 @@ impl Desk {
             None => (format!("{name}.zip"), "application/zip"),
         };
         let task = ExportExperiment { experiment: ran.experiment.clone(), only };
-        let on_outcome = move |outcome: Outcome<ExportExperiment>| match outcome {
-            Outcome::Done((), bytes) => bytes.iter().for_each(|bytes| self.hand_over(&file, kind, bytes)),
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+        let on_outcome = move |outcome: TaskOutcome<ExportExperiment>| match outcome {
+            TaskOutcome::Done((), bytes) => bytes.iter().for_each(|bytes| self.hand_over(&file, kind, bytes)),
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::file, || ()), task, Vec::new(), on_outcome);
+        self.ask(Stop(background::file, || ()), task, Vec::new(), on_outcome);
     }
 }

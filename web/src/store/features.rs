@@ -9,11 +9,11 @@ use sightline::project::Project;
 use sightline_protocol::MeasureFeatures;
 
 use super::Desk;
-use super::document::{Change, Document, Outcome as Result};
-use super::lasting::Stop;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::pool::TaskOutcome;
+use crate::document::{AdjustmentResult, Change, Document};
 use crate::edit::features::{self, Lacks};
-use crate::i18n::lasting;
+use crate::i18n::background;
 use crate::i18n::object as words;
 
 impl Document {
@@ -129,8 +129,8 @@ impl Desk {
             project: apply(&with_features(&result.oriented, &project), &result.adjustment),
             options: result.adjustment.options.clone(),
         };
-        let on_outcome = move |outcome: Outcome<MeasureFeatures>| match outcome {
-            Outcome::Done(Measured { features, systems }, _) => {
+        let on_outcome = move |outcome: TaskOutcome<MeasureFeatures>| match outcome {
+            TaskOutcome::Done(Measured { features, systems }, _) => {
                 let there = self.document.with_untracked(|d| {
                     Arc::ptr_eq(&d.project, &project) && d.result.as_ref().is_some_and(|r| Arc::ptr_eq(r, &result))
                 });
@@ -139,14 +139,14 @@ impl Desk {
                     let mut adjustment = result.adjustment.clone();
                     (adjustment.features, adjustment.systems) = (features, systems);
                     let oriented = Arc::new(with_features(&result.oriented, &project));
-                    let measured = Result { input: project.clone(), oriented, adjustment };
+                    let measured = AdjustmentResult { input: project.clone(), oriented, adjustment };
                     self.change_on(|document| document.result = Some(Arc::new(measured)));
                 }
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::features, || ()), task, Vec::new(), on_outcome);
+        self.ask(Stop(background::features, || ()), task, Vec::new(), on_outcome);
     }
 }
 
@@ -155,7 +155,7 @@ fn with_features(project: &Project, other: &Project) -> Project {
     Project { features: other.features.clone(), systems: other.systems.clone(), ..project.clone() }
 }
 
-/// What is to be chosen before it can be made.
+/// Selection that is missing before it can be created.
 fn lacking(lacks: Lacks) -> String {
     match lacks {
         Lacks::Points(n) => words::lacks_points(n),
@@ -179,7 +179,7 @@ mod tests {
         let mut document = Document::default();
         let input = document.project.clone();
         let adjustment = Adjustment { options: document.options.clone(), ..Adjustment::default() };
-        document.result = Some(Arc::new(Result { oriented: input.clone(), input, adjustment }));
+        document.result = Some(Arc::new(AdjustmentResult { oriented: input.clone(), input, adjustment }));
         let line = DrawnLine { from: "1".into(), to: "2".into(), layer: String::new() };
         document.project_mut().lines.push(line);
         assert!(document.current().is_some() && !document.features_out_of_date());

@@ -7,23 +7,23 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use sightline::Error;
 use sightline::equipment::Equipment;
-use sightline::error::Reason as Why;
-use sightline::exchange::cameras::known;
-use sightline::exchange::conversion::Covariance;
-use sightline::exchange::foreign::CameraOptions;
-use sightline::project::{Camera, Origin, Project};
+use sightline::project::{Camera, Origin, Photo, Project};
+use sightline_exchange::cameras::known;
+use sightline_exchange::conversion::Covariance;
+use sightline_exchange::foreign::CameraOptions;
+use sightline_exchange::reason::ExchangeReason;
 use sightline_protocol::{Content, Foreign, ForeignCameras, ReadForeign, WriteCamera, WriteNetwork, Written};
 
+use super::background::Stop;
 use super::intake::problem_sentence;
-use super::lasting::Stop;
-use super::pool::{Failure, Outcome};
+use super::pool::{Failure, TaskOutcome};
 use super::saving::{file_stem, is_project, is_text};
 use super::{Asking, Desk, JobKind, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
 use crate::browser::page;
 use crate::browser::worker::Bytes;
 use crate::edit::exchange::{measured_region, parameter_covariance};
-use crate::i18n::{Text, errors, interchange as words, lasting};
+use crate::i18n::{Text, background, errors, interchange as words};
 
 /// Files that were asked for, by where they stand on the page.
 pub type PreparedFiles = BTreeMap<String, Prepared>;
@@ -39,7 +39,7 @@ pub enum Prepared {
     Refused(Error),
 }
 
-/// What is written for another program.
+/// A file for another program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Wanted {
     /// A camera of the project, in a format.
@@ -70,7 +70,16 @@ pub(super) fn is_picture(name: &str) -> bool {
 
 /// Whether an error only asks whether a difference between camera models is accepted.
 pub fn asks_to_convert(error: &Error) -> bool {
-    matches!(error, Error::Invalid { reason: Why::ConversionTooLarge { .. }, .. })
+    matches!(ExchangeReason::of_error(error), Some(ExchangeReason::ConversionTooLarge { .. }))
+}
+
+/// Signals of files from and for other programs.
+#[derive(Clone, Copy, Default)]
+pub struct OtherPrograms {
+    /// Files for other programs.
+    pub prepared: RwSignal<PreparedFiles, LocalStorage>,
+    /// Pictures and lists that came together with a network whose opening waits for an answer.
+    pub(super) following: StoredValue<(Vec<NamedFile>, Vec<NamedFile>), LocalStorage>,
 }
 
 impl Desk {
@@ -85,13 +94,14 @@ impl Desk {
     fn read_foreign(self, files: Vec<NamedFile>, convert: bool, rest: impl Fn(&Foreign, Vec<NamedFile>) + 'static) {
         let names = files.iter().map(|file| file.name.clone()).collect();
         let contents = files.iter().map(|file| file.content.clone()).collect();
+        let sizes = self.document.with_untracked(|d| photo_sizes(&d.project));
         let batch = self.start_job(JobKind::Reading, 1, || {});
-        let on_outcome = move |outcome: Outcome<ReadForeign>| {
+        let on_outcome = move |outcome: TaskOutcome<ReadForeign>| {
             self.end_job();
             let mut all = match outcome {
-                Outcome::Done(all, _) => all,
-                Outcome::Failed(failure) => return self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Done(all, _) => all,
+                TaskOutcome::Failed(failure) => return self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             };
             let (asked, refused): (Vec<_>, Vec<_>) =
                 all.refused.drain(..).partition(|e| !convert && asks_to_convert(e));
@@ -110,7 +120,9 @@ impl Desk {
                 self.ask_to_convert(asked, files.clone());
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, ReadForeign { names, convert }, contents, on_outcome));
+        self.tasks
+            .pool
+            .with_value(|pool| pool.submit(batch, ReadForeign { names, sizes, convert }, contents, on_outcome));
     }
 
     /// Takes what is of no other program: lists and tables, documents, pictures.
@@ -130,7 +142,7 @@ impl Desk {
         }
         if opens {
             // They belong to the network, which comes first.
-            self.following.set_value((pictures, texts));
+            self.other_programs.following.set_value((pictures, texts));
         } else if pictures.is_empty() {
             self.take_texts(texts, false);
         } else {
@@ -140,7 +152,7 @@ impl Desk {
 
     /// Opens a network as a new project, with the pictures and lists that came along.
     fn open_network(self, project: Project) {
-        let (pictures, texts) = self.following.try_update_value(std::mem::take).unwrap_or_default();
+        let (pictures, texts) = self.other_programs.following.try_update_value(std::mem::take).unwrap_or_default();
         self.over_unsaved(move || {
             let stem = source(&project);
             let content = Content { project: project.clone(), targets: BTreeMap::default(), adjustment: None };
@@ -182,7 +194,7 @@ impl Desk {
         });
     }
 
-    /// Lists files that could not be read, where such a list is in sight, else tells it.
+    /// Lists files that could not be read, where such a list is in sight, else reports it.
     fn tell_refused(self, refused: Vec<Error>) {
         let named = |error: Error| {
             let file = error.place().file.unwrap_or_default();
@@ -214,7 +226,7 @@ impl Desk {
         let list = move || asked.iter().map(errors::sentence).collect::<Vec<_>>().join(" ");
         let convert: Rc<dyn Fn()> = Rc::new(move || self.read_foreign(files.clone(), true, |_, _| ()));
         let text = Rc::new(move || words::conversion_asked(list()));
-        self.asking.set(Some(Asking { text, choices: vec![(words::read_anyway as Text, convert)] }));
+        self.messages.asking.set(Some(Asking { text, choices: vec![(words::read_anyway as Text, convert)] }));
     }
 
     /// The camera that is written: its adjusted values with their covariance where there is a current result.
@@ -235,33 +247,35 @@ impl Desk {
     /// Prepares files for another program; `convert` accepts a difference of more than 1 px.
     pub fn prepare(self, wanted: &Wanted, convert: bool) {
         let key = wanted.key();
-        self.prepared.update(|all| drop(all.insert(key.clone(), Prepared::Waiting)));
+        self.other_programs.prepared.update(|all| drop(all.insert(key.clone(), Prepared::Waiting)));
         let document = self.document.get_untracked();
         let set = move |key: &str, outcome: Result<(Written, Vec<Bytes>), Failure>| match outcome {
             // Files of a document that has changed since are not handed over.
             _ if !self.document.with_untracked(|d| d.same(&document)) => {}
             Ok((written, bytes)) => {
-                self.prepared.update(|all| drop(all.insert(key.to_owned(), Prepared::Ready(written, bytes))));
+                self.other_programs
+                    .prepared
+                    .update(|all| drop(all.insert(key.to_owned(), Prepared::Ready(written, bytes))));
             }
             Err(Failure::Refused(error)) => {
-                self.prepared.update(|all| drop(all.insert(key.to_owned(), Prepared::Refused(error))));
+                self.other_programs.prepared.update(|all| drop(all.insert(key.to_owned(), Prepared::Refused(error))));
             }
             Err(failure) => {
-                self.prepared.update(|all| drop(all.remove(key)));
+                self.other_programs.prepared.update(|all| drop(all.remove(key)));
                 self.tell_failure(failure);
             }
         };
         let here = key.clone();
-        let stop = Stop(lasting::file, move || self.prepared.update(|all| drop(all.remove(&here))));
+        let stop = Stop(background::file, move || self.other_programs.prepared.update(|all| drop(all.remove(&here))));
         match wanted {
             Wanted::Camera(camera, format) => {
                 let Some((camera, options)) = untrack(|| self.outgoing_camera(camera)) else { return };
                 let options = CameraOptions { convert, ..options };
                 let task = WriteCamera { format: format.clone(), camera, options };
                 self.ask(stop, task, Vec::new(), move |outcome| match outcome {
-                    Outcome::Done(written, bytes) => set(&key, Ok((written, bytes))),
-                    Outcome::Failed(failure) => set(&key, Err(failure)),
-                    Outcome::Progress(nothing) => match nothing {},
+                    TaskOutcome::Done(written, bytes) => set(&key, Ok((written, bytes))),
+                    TaskOutcome::Failed(failure) => set(&key, Err(failure)),
+                    TaskOutcome::Progress(nothing) => match nothing {},
                 });
             }
             Wanted::Network(format) => {
@@ -272,9 +286,9 @@ impl Desk {
                     convert,
                 });
                 self.ask(stop, task, Vec::new(), move |outcome| match outcome {
-                    Outcome::Done(written, bytes) => set(&key, Ok((written, bytes))),
-                    Outcome::Failed(failure) => set(&key, Err(failure)),
-                    Outcome::Progress(nothing) => match nothing {},
+                    TaskOutcome::Done(written, bytes) => set(&key, Ok((written, bytes))),
+                    TaskOutcome::Failed(failure) => set(&key, Err(failure)),
+                    TaskOutcome::Progress(nothing) => match nothing {},
                 });
             }
         }
@@ -287,7 +301,7 @@ impl Desk {
             Wanted::Camera(camera, _) => format!("{stem}-{}", file_stem(camera)),
             Wanted::Network(_) => stem,
         };
-        self.prepared.with_untracked(|all| {
+        self.other_programs.prepared.with_untracked(|all| {
             let Some(Prepared::Ready(written, bytes)) = all.get(&wanted.key()) else { return };
             for (name, bytes) in written.names.iter().zip(bytes) {
                 let kind = if name.ends_with(".zip") { "application/zip" } else { "application/octet-stream" };
@@ -297,7 +311,16 @@ impl Desk {
     }
 }
 
-/// What a network is called that has no name: its file without ending, or its format if there are several files.
+/// Width and height of a project's photos by their files.
+fn photo_sizes(project: &Project) -> BTreeMap<String, [u32; 2]> {
+    let size = |photo: &Photo| {
+        let camera = project.cameras.iter().find(|camera| camera.id == photo.camera)?;
+        Some((photo.file.clone(), [camera.width, camera.height]))
+    };
+    project.photos.iter().filter(|photo| !photo.file.is_empty()).filter_map(size).collect()
+}
+
+/// Name of a network without one: its file without ending, or its format if there are several files.
 fn source(project: &Project) -> String {
     if !project.name.is_empty() {
         return project.name.clone();
@@ -328,6 +351,7 @@ pub fn format_name(format: &str) -> &str {
         "nvm" => "VisualSFM",
         "opensfm" => "OpenSfM",
         "pix4d" => "Pix4D",
+        "realitycapture" => "RealityCapture",
         "vstars" => "V-STARS",
         "photomodeler" => "PhotoModeler",
         "dbat" => "DBAT",

@@ -4,9 +4,9 @@ use leptos::prelude::*;
 use sightline::matching::{Board, GridNaming, GridOptions};
 use sightline_protocol::NameGrid;
 
-use super::document::Change;
-use super::pool::Outcome;
+use super::pool::TaskOutcome;
 use super::{Desk, JobKind};
+use crate::document::Change;
 use crate::edit::{grids, targets};
 
 impl Desk {
@@ -17,9 +17,9 @@ impl Desk {
         }
         let (project, targets) = self.document.with_untracked(|d| ((*d.project).clone(), targets::by_photo(d)));
         let batch = self.start_job(JobKind::Matching, 1, || {});
-        let on_outcome = move |outcome: Outcome<NameGrid>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            Outcome::Done(naming, _) => {
+        let on_outcome = move |outcome: TaskOutcome<NameGrid>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Done(naming, _) => {
                 self.end_job();
                 if !naming.observations.is_empty() {
                     let (count, taken) = (naming.observations.len(), naming.clone());
@@ -29,12 +29,12 @@ impl Desk {
                 }
                 shown.try_set(Some(naming));
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
         let task = NameGrid { project, targets, board, options };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 }

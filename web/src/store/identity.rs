@@ -4,19 +4,19 @@ use std::collections::BTreeSet;
 
 use leptos::prelude::*;
 use sightline::detection::Target;
-use sightline::exchange::mark_points;
 use sightline::matching::{Mark, Matching, Snapped, snap};
 use sightline::project::{Observation, Sigma};
+use sightline_exchange::mark_points;
 use sightline_protocol::Measure;
 
-use super::document::Change;
-use super::lasting::Stop;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::pool::TaskOutcome;
 use super::{Desk, Kind};
+use crate::document::Change;
 use crate::edit::points::{self, Naming, Renamed};
 use crate::edit::targets;
 use crate::format;
-use crate::i18n::lasting as words;
+use crate::i18n::background as words;
 use crate::i18n::text;
 
 /// Marks of an earlier measurement, waiting to be taken.
@@ -36,14 +36,14 @@ impl Desk {
     }
 
     /// Gives a place of the photo a name: a target's centre, or a place set by hand.
-    pub fn name_place(self, photo: &str, asked: Asked, point: &str) {
+    pub fn name_place(self, photo: &str, asked: PhotoPlace, point: &str) {
         let point = point.trim().to_owned();
         let found = match asked {
-            Asked::Target(target) => self.document.with_untracked(|d| {
+            PhotoPlace::Target(target) => self.document.with_untracked(|d| {
                 let target = d.detections.get(photo)?.targets.get(target)?;
                 Some(([target.u, target.v], Sigma::Two([target.sigma_u, target.sigma_v]), target.number()))
             }),
-            Asked::Spot(spot) => Some((spot, Sigma::One(points::BY_HAND_SIGMA), None)),
+            PhotoPlace::Spot(spot) => Some((spot, Sigma::One(points::BY_HAND_SIGMA), None)),
         };
         let (Some(([u, v], sigma, target)), false) = (found, point.is_empty()) else { return };
         let (photo_id, id) = (photo.to_owned(), point.clone());
@@ -51,7 +51,7 @@ impl Desk {
         let mut naming = Naming::default();
         self.change(Change::Named(point.clone()), |d| naming = points::observe(d.project_mut(), observation));
         self.selection.update(|s| (s.point, s.spot) = (Some(point.clone()), None));
-        self.tell_naming(photo, &point, naming, matches!(asked, Asked::Spot(_)));
+        self.tell_naming(photo, &point, naming, matches!(asked, PhotoPlace::Spot(_)));
     }
 
     fn tell_naming(self, photo: &str, point: &str, naming: Naming, by_hand: bool) {
@@ -66,23 +66,23 @@ impl Desk {
         }
     }
 
-    /// Measures at a place of the photo; where there is nothing to measure, says how to place a point freely.
+    /// Measures at a place of the photo; if there is nothing to measure, explains how to place a point freely.
     pub fn measure_at(self, photo: &str, u: f64, v: f64) {
-        let file = self.files.with_untracked(|f| f.get(photo).map(|f| (f.content.clone(), f.digest)));
+        let file = self.photos.files.with_untracked(|f| f.get(photo).map(|f| (f.content.clone(), f.digest)));
         let Some((file, digest)) = file else {
             self.warn_here(|| text::no_photo_files().to_owned());
             return;
         };
-        let mut options = self.detect_options.get_untracked();
+        let mut options = self.processing.detect_options.get_untracked();
         options.codes = self.document.with_untracked(|d| targets::codes_of_one(options.codes, &d.rings));
         let photo = photo.to_owned();
-        let on_outcome = move |outcome: Outcome<Measure>| match outcome {
-            Outcome::Done(Some(target), _) => self.add_target(&photo, target),
-            Outcome::Done(None, _) => {
+        let on_outcome = move |outcome: TaskOutcome<Measure>| match outcome {
+            TaskOutcome::Done(Some(target), _) => self.add_target(&photo, target),
+            TaskOutcome::Done(None, _) => {
                 self.tell_here(|| text::nothing_to_measure().to_owned());
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
         let stop = Stop(words::target, || ());
         self.ask(stop, Measure { digest, u, v, options }, vec![file], on_outcome);
@@ -107,8 +107,8 @@ impl Desk {
             }
         });
         let unnamed = point.is_none();
-        if unnamed && self.series.with_untracked(Option::is_some) {
-            return self.take_in_series(photo, Asked::Target(at));
+        if unnamed && self.measuring.series.with_untracked(Option::is_some) {
+            return self.take_in_series(photo, PhotoPlace::Target(at));
         }
         self.choose_in_photo(photo, Some(at), point);
     }
@@ -222,11 +222,11 @@ impl Desk {
         (found, doubtful)
     }
 
-    /// Reads a file of marks, to be looked at before they are taken; whether there are any.
+    /// Reads a file of marks, to be examined before they are taken; whether there are any.
     pub fn read_marks(self, file: String, content: &str) -> bool {
         match mark_points::parse(content) {
             Ok(marks) => {
-                self.marks.set(Some(Marks { file, marks, radius: 5.0 }));
+                self.intake.marks.set(Some(Marks { file, marks, radius: 5.0 }));
                 true
             }
             Err(error) => {
@@ -236,9 +236,9 @@ impl Desk {
         }
     }
 
-    /// What the marks snap to at the radius that is set.
+    /// Targets to which the measurements snap with the present radius.
     pub fn snapped(self) -> Option<(Marks, Snapped)> {
-        let marks = self.marks.get()?;
+        let marks = self.intake.marks.get()?;
         let snapped = self.document.with(|d| snap(&marks.marks, &targets::by_photo(d), marks.radius));
         Some((marks, snapped))
     }
@@ -249,13 +249,13 @@ impl Desk {
         self.change(Change::MarksTaken(places.len()), |d| {
             targets::take_marks(d.project_mut(), snapped);
         });
-        self.marks.set(None);
+        self.intake.marks.set(None);
     }
 }
 
-/// A place of a photo that is asked a name for.
+/// A place in a photo that the user is asked to name.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asked {
+pub enum PhotoPlace {
     /// By its place in the photo's list of targets.
     Target(usize),
     Spot([f64; 2]),

@@ -1,5 +1,7 @@
 //! Incoming files: workers read the photos, and unusable files are listed while the others are processed.
 
+mod state;
+
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -10,49 +12,25 @@ use sightline::exif::PhotoInfo;
 use sightline::project::{Photo, Project};
 use sightline_protocol::{Glance, Open};
 
-use super::document::{Change, Document};
 use super::foreign::is_picture;
-use super::pool::{Batch, Failure, Outcome};
+use super::pool::{Batch, Failure, TaskOutcome};
 use super::saving::{is_packed, is_project, is_text};
-use super::{Asking, Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
+use super::{Asking, Desk, JobKind, PhotoFile, Step, Until};
 use crate::browser::file::NamedFile;
 use crate::browser::page;
 use crate::browser::picture::Picture;
+use crate::document::{Change, Document};
 use crate::edit::attaching::{self, Arriving, Belongs};
 use crate::edit::cameras::{self, Signature};
 use crate::edit::{naming, natural, pairs};
-use crate::i18n::{Text, errors, first, interchange, monitoring, text};
+use crate::i18n::{Text, first, name_list, text};
 use crate::parts::{Absent, part};
+pub use state::{Coming, Intake, Problem, Reason, problem_sentence};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
 pub const SMALL_SIDE: u32 = 320;
 
-/// A photo that is being read; the project has it when all of it is known.
-#[derive(Clone)]
-pub struct Coming {
-    pub name: String,
-    /// What its file carries of itself, and how it is turned for showing.
-    pub picture: Option<(Picture, u8)>,
-}
-
-type Taken = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
-
-/// The sentence for a file that was not taken.
-pub fn problem_sentence(reason: &Reason) -> String {
-    match reason {
-        Reason::Engine(error) => errors::sentence(error),
-        Reason::Duplicate { of } => text::duplicate_of(of),
-        Reason::SameName { of } => text::same_name_as(of),
-        Reason::Developed { of } => text::developed_of(of),
-        Reason::RawOf { of } => text::raw_of(of),
-        Reason::Unreadable(detail) => text::unreadable(detail),
-        Reason::AnotherProject => interchange::another_project().to_owned(),
-        Reason::Empty => text::is_empty().to_owned(),
-        Reason::NoList => text::is_no_list().to_owned(),
-        Reason::EpochNotAdjusted => monitoring::not_adjusted().to_owned(),
-        Reason::EpochOutOfDate => monitoring::adjusted_before().to_owned(),
-    }
-}
+type ReadPhotos = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
 
 part! { steps, fn sorted_and_taken(desk: Desk, files: Vec<NamedFile>) -> (), {
     desk.take_now(files);
@@ -61,7 +39,8 @@ part! { steps, fn sorted_and_taken(desk: Desk, files: Vec<NamedFile>) -> (), {
 impl Desk {
     /// Takes files that a person drops or chooses: photos on the start page begin a project of their own.
     pub fn take_dropped(self, files: Vec<NamedFile>) {
-        let busy = self.job.with_untracked(Option::is_some);
+        self.stop_what_runs_by_itself();
+        let busy = self.tasks.job.with_untracked(Option::is_some);
         let begins = !busy
             && self.step.get_untracked() == Step::Start
             && !self.document.with_untracked(Document::is_empty)
@@ -81,7 +60,7 @@ impl Desk {
         self.when_it_came(sorted_and_taken(self, files));
     }
 
-    /// Does what a part of the page does, which may be on its way; where it does not come, that is told.
+    /// Does what a part of the page does, which may be on its way; if it cannot be loaded, that is reported.
     pub(super) fn when_it_came(self, work: impl Future<Output = Result<(), Absent>> + 'static) {
         spawn_local(async move {
             if work.await.is_err() {
@@ -101,7 +80,7 @@ impl Desk {
             self.take_epochs(files);
             return;
         }
-        if self.job.with_untracked(Option::is_some) {
+        if self.tasks.job.with_untracked(Option::is_some) {
             self.say(true, Until::WorkEnds, || text::busy().to_owned());
             return;
         }
@@ -110,7 +89,7 @@ impl Desk {
             self.open_project(project);
             return;
         }
-        self.problems.set(Vec::new());
+        self.intake.problems.set(Vec::new());
         let empty_text = |f: &NamedFile| f.content.is_empty() && is_text(&f.name);
         let (empty, others): (Vec<_>, Vec<_>) = others.into_iter().partition(empty_text);
         // A model of COLMAP may have no points: its file is not missing then.
@@ -131,7 +110,7 @@ impl Desk {
         if new.is_empty() {
             return;
         }
-        self.problems.update(|problems| {
+        self.intake.problems.update(|problems| {
             problems.extend(new);
             problems.dedup();
         });
@@ -140,18 +119,18 @@ impl Desk {
     /// Takes photos, then the texts that came with them.
     pub(super) fn take_photos(self, mut files: Vec<NamedFile>, texts: Vec<NamedFile>) {
         files.sort_by(|a, b| natural(&a.name, &b.name));
-        let taken = Taken::default();
+        let taken = ReadPhotos::default();
         let keep = taken.clone();
         // As many pixels as a JPEG has at most in so many bytes; a sensor's noise does not pack below a byte a pixel.
         let most = |file: &NamedFile| if pairs::is_raw(&file.name) { 1.0 } else { 3.0 } * file.content.size();
         let largest = files.iter().map(most).fold(2e6, f64::max);
-        self.pool.with_value(|pool| pool.expect_pixels(largest));
+        self.tasks.pool.with_value(|pool| pool.expect_pixels(largest));
         let batch = self.start_job(JobKind::Opening, files.len(), move || self.add_photos(&keep));
         self.glance_at(batch, &files);
         for (place, file) in files.into_iter().enumerate() {
             let (taken, texts) = (taken.clone(), texts.clone());
             let content = file.content.clone();
-            let on_outcome = move |outcome: Outcome<Open>| {
+            let on_outcome = move |outcome: TaskOutcome<Open>| {
                 let (file, taken, texts) = (file.clone(), taken.clone(), texts.clone());
                 spawn_local(async move {
                     let result = look_into(file, outcome).await;
@@ -163,27 +142,27 @@ impl Desk {
                     }
                 });
             };
-            self.pool.with_value(|pool| {
+            self.tasks.pool.with_value(|pool| {
                 pool.submit(batch, Open { max_side: SMALL_SIDE }, vec![content], on_outcome);
             });
         }
     }
 
-    /// Shows what the files carry of themselves, before any of them is read whole.
+    /// Shows the embedded previews, before any of them is read whole.
     fn glance_at(self, batch: Batch, files: &[NamedFile]) {
         let coming = |file: &NamedFile| Coming { name: file.name.clone(), picture: None };
-        self.coming.set(files.iter().map(coming).collect());
+        self.intake.coming.set(files.iter().map(coming).collect());
         for (place, file) in files.iter().enumerate() {
-            let on_outcome = move |outcome: Outcome<Glance>| {
+            let on_outcome = move |outcome: TaskOutcome<Glance>| {
                 // Where nothing is found the photo's own picture comes when it is read.
-                let Outcome::Done(Some(found), bytes) = outcome else { return };
+                let TaskOutcome::Done(Some(found), bytes) = outcome else { return };
                 let Some(bytes) = bytes.into_iter().next() else { return };
                 spawn_local(async move {
                     let Ok(picture) = Picture::from_rgba(bytes, found.small[0], found.small[1]).await else { return };
-                    if !self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch)) {
+                    if !self.tasks.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch)) {
                         return;
                     }
-                    self.coming.update(|all| {
+                    self.intake.coming.update(|all| {
                         if let Some(coming) = all.get_mut(place) {
                             coming.picture = Some((picture, found.orientation));
                         }
@@ -194,19 +173,19 @@ impl Desk {
                 });
             };
             let task = Glance { max_side: SMALL_SIDE };
-            self.pool.with_value(|pool| pool.submit(batch, task, vec![file.content.clone()], on_outcome));
+            self.tasks.pool.with_value(|pool| pool.submit(batch, task, vec![file.content.clone()], on_outcome));
         }
     }
 
     /// Adds what was looked into, in the order of the file names, as one change.
-    fn add_photos(self, taken: &Taken) {
-        self.coming.set(Vec::new());
+    fn add_photos(self, taken: &ReadPhotos) {
+        self.intake.coming.set(Vec::new());
         let mut all = taken.take();
         all.sort_by_key(|(place, _)| *place);
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
         let (mut added, mut recorded) = (0, 0);
         let mut asked = Vec::new();
-        let mut problems = self.problems.get_untracked();
+        let mut problems = self.intake.problems.get_untracked();
         let raws: Vec<(String, PhotoInfo)> = all
             .iter()
             .filter_map(|(_, result)| result.as_ref().ok())
@@ -221,7 +200,7 @@ impl Desk {
                     continue;
                 }
             };
-            let known = self.files.with_untracked(|files| {
+            let known = self.photos.files.with_untracked(|files| {
                 let same = |(id, known): (&String, &PhotoFile)| {
                     (known.digest == file.digest && project.photos.iter().any(|p| p.id == *id))
                         .then(|| known.name.clone())
@@ -252,7 +231,7 @@ impl Desk {
                 Belongs::Nowhere => {
                     if let Some(reason) = self.other_of_the_shot(&project, &file, &raws) {
                         problems.push(Problem { file: file.name.clone(), reason });
-                        self.others.update_value(|others| {
+                        self.photos.others.update_value(|others| {
                             others.retain(|other| other.digest != file.digest);
                             others.push(file);
                         });
@@ -262,12 +241,12 @@ impl Desk {
                     self.add_photo(&mut project, &file)
                 }
             };
-            self.files.update(|files| {
+            self.photos.files.update(|files| {
                 files.insert(id, file);
             });
         }
         problems.dedup();
-        self.problems.set(problems);
+        self.intake.problems.set(problems);
         if added > 0 && project.name.is_empty() {
             project.name = self.name_of(&project);
         }
@@ -284,7 +263,7 @@ impl Desk {
                 self.select_photo(&photo.id);
             }
         });
-        // Where nothing could be taken the start page says why.
+        // If no file could be used, the start page shows the reasons.
         let empty = self.document.with_untracked(|d| d.project.photos.is_empty());
         match self.step.get_untracked() {
             Step::Start if !empty => self.go(Step::Photos),
@@ -295,7 +274,7 @@ impl Desk {
 
     /// Which photo of an opened project this file belongs to.
     fn belongs(self, file: &PhotoFile) -> Belongs {
-        self.files.with_untracked(|files| {
+        self.photos.files.with_untracked(|files| {
             let waits = |photo: &Photo| !files.contains_key(&photo.id);
             let arriving = Arriving { name: &file.name, sha256: &file.sha256, size: file.size };
             self.document.with_untracked(|d| attaching::belongs(d, &waits, arriving))
@@ -309,10 +288,6 @@ impl Desk {
             return;
         }
         let names = asked.iter().map(|(_, file)| file.name.clone()).collect::<Vec<_>>();
-        let listed = match names.as_slice() {
-            [first, second, third, _, ..] => format!("{first}, {second}, {third}, …"),
-            few => few.join(", "),
-        };
         let count = names.len();
         // One that differs for certain makes the whole drop doubtful, and so do two files for one photo.
         let differs = asked.iter().enumerate().any(|(k, (belongs, _))| {
@@ -336,7 +311,7 @@ impl Desk {
                 let listed = |problem: &Problem| {
                     matches!(problem.reason, Reason::SameName { .. }) && names_of(&files).contains(&problem.file)
                 };
-                self.problems.update(|problems| problems.retain(|problem| !listed(problem)));
+                self.intake.problems.update(|problems| problems.retain(|problem| !listed(problem)));
                 verb(self, &files);
             });
             (words, take)
@@ -347,10 +322,10 @@ impl Desk {
             choices.insert(0, choice(text::same_photos, Self::attach_as_same));
         }
         let text = Rc::new(move || match differs {
-            true => text::photos_differ(count, &listed),
-            false => text::photos_unrecorded(count, &listed),
+            true => text::photos_differ(count, name_list(&names)),
+            false => text::photos_unrecorded(count, name_list(&names)),
         });
-        self.asking.set(Some(Asking { text, choices }));
+        self.messages.asking.set(Some(Asking { text, choices }));
     }
 
     /// Adds files as photos of their own.
@@ -358,7 +333,7 @@ impl Desk {
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
         for (_, file) in files {
             let id = self.add_photo(&mut project, file);
-            self.files.update(|all| {
+            self.photos.files.update(|all| {
                 all.insert(id, file.clone());
             });
         }
@@ -373,7 +348,7 @@ impl Desk {
         for (old, file) in files {
             let id = self.add_photo(after.project_mut(), file);
             attaching::replace(&mut after, old);
-            self.files.update(|all| {
+            self.photos.files.update(|all| {
                 all.insert(id.clone(), file.clone());
             });
             last = Some(id);
@@ -391,14 +366,14 @@ impl Desk {
             attaching::record(&mut project, id, &file.sha256);
         }
         self.change(Change::PhotosAttached(files.len()), |document| *document.project_mut() = project);
-        self.files.update(|all| all.extend(files.iter().cloned()));
+        self.photos.files.update(|all| all.extend(files.iter().cloned()));
     }
 
-    /// What else there is of the file's shot: a photo of the project, or for a developed one its RAW among those that come with it.
+    /// Another file of the same exposure: a photo of the project, or for a developed one its RAW among those that come with it.
     fn other_of_the_shot(self, project: &Project, file: &PhotoFile, raws: &[(String, PhotoInfo)]) -> Option<Reason> {
         let raw = pairs::is_raw(&file.name);
         let same = |name: &str, info: &PhotoInfo| pairs::same_shot((&file.name, &file.info), (name, info));
-        let known = self.files.with_untracked(|files| {
+        let known = self.photos.files.with_untracked(|files| {
             let info = |photo: &Photo| files.get(&photo.id).map(|file| file.info.clone()).unwrap_or_default();
             project.photos.iter().find(|photo| same(&photo.file, &info(photo))).map(|photo| photo.file.clone())
         });
@@ -417,11 +392,11 @@ impl Desk {
         if !self.may_change() {
             return;
         }
-        let others = self.others.get_value();
+        let others = self.photos.others.get_value();
         let mut swapped: Vec<(String, PhotoFile)> = Vec::new();
         let mut left = Vec::new();
         for other in others {
-            let of_the_shot = self.files.with_untracked(|files| {
+            let of_the_shot = self.photos.files.with_untracked(|files| {
                 self.document.with_untracked(|d| {
                     let same = |photo: &&Photo| {
                         let info = files.get(&photo.id).map(|file| file.info.clone()).unwrap_or_default();
@@ -441,9 +416,9 @@ impl Desk {
         }
         let replaced: BTreeSet<String> = swapped.iter().map(|(id, _)| id.clone()).collect();
         let before: Vec<PhotoFile> =
-            self.files.with_untracked(|files| replaced.iter().filter_map(|id| files.get(id).cloned()).collect());
+            self.photos.files.with_untracked(|files| replaced.iter().filter_map(|id| files.get(id).cloned()).collect());
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
-        let mut problems: Vec<Problem> = self.problems.get_untracked();
+        let mut problems: Vec<Problem> = self.intake.problems.get_untracked();
         let mut fresh = Vec::new();
         for (old, file) in &swapped {
             let id = self.add_photo(&mut project, file);
@@ -466,13 +441,13 @@ impl Desk {
             *document.project_mut() = project;
             cameras::remove_photos(document, &replaced);
         });
-        self.problems.set(problems);
+        self.intake.problems.set(problems);
         // Those that are measured now too: undo makes them the others again.
         let mut others: Vec<PhotoFile> = left.into_iter().chain(before).collect();
         others.extend(fresh.iter().map(|(_, file)| file.clone()));
-        self.others.set_value(others);
+        self.photos.others.set_value(others);
         let first = fresh.first().map(|(id, _)| id.clone());
-        self.files.update(|files| files.extend(fresh));
+        self.photos.files.update(|files| files.extend(fresh));
         if let Some(first) = first {
             self.select_photo(&first);
         }
@@ -491,13 +466,13 @@ impl Desk {
             }
             reason => Problem { file, reason },
         };
-        self.problems.get().into_iter().map(now).collect()
+        self.intake.problems.get().into_iter().map(now).collect()
     }
 
-    /// What a project is called by its photos.
+    /// Name of a project from its photos.
     fn name_of(self, project: &Project) -> String {
         let none = PhotoInfo::default();
-        let name = self.files.with_untracked(|files| {
+        let name = self.photos.files.with_untracked(|files| {
             let of = |photo| files.get(photo).map_or(&none, |file: &PhotoFile| &file.info);
             let photos = project.photos.iter().map(|p| (p.file.as_str(), of(&p.id))).collect::<Vec<_>>();
             naming::project_name(&photos, &page::today(), first::project())
@@ -507,13 +482,13 @@ impl Desk {
 
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {
         let signature = Signature::of(&file.name, &file.info, file.size);
-        let shares = self.files.with_untracked(|files| {
+        let shares = self.photos.files.with_untracked(|files| {
             let shares = |photo: &&Photo| {
                 files.get(&photo.id).is_some_and(|f| Signature::of(&f.name, &f.info, f.size) == signature)
             };
             project.photos.iter().rev().find(shares).map(|photo| photo.id.clone())
         });
-        let id = self.files.with_untracked(|files| {
+        let id = self.photos.files.with_untracked(|files| {
             let taken = |id: &str| files.get(id).is_some_and(|known| known.digest != file.digest);
             cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref(), &taken)
         });
@@ -528,12 +503,12 @@ fn names_of(files: &[(String, PhotoFile)]) -> Vec<String> {
     files.iter().map(|(_, file)| file.name.clone()).collect()
 }
 
-async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile, Problem> {
+async fn look_into(file: NamedFile, outcome: TaskOutcome<Open>) -> Result<PhotoFile, Problem> {
     let NamedFile { name, content } = file;
     let failed = |reason| Problem { file: name.clone(), reason };
     match outcome {
-        Outcome::Failed(Failure::Refused(_)) if content.is_empty() => Err(failed(Reason::Empty)),
-        Outcome::Done(opened, bytes) => {
+        TaskOutcome::Failed(Failure::Refused(_)) if content.is_empty() => Err(failed(Reason::Empty)),
+        TaskOutcome::Done(opened, bytes) => {
             let bytes = bytes.into_iter().next().ok_or_else(|| failed(Reason::Unreadable(String::new())))?;
             let small = Picture::from_rgba(bytes, opened.small[0], opened.small[1]).await;
             let small = small.map_err(|detail| failed(Reason::Unreadable(detail)))?;
@@ -548,8 +523,10 @@ async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile,
                 sha256: opened.sha256,
             })
         }
-        Outcome::Failed(Failure::Refused(error)) => Err(failed(Reason::Engine(error))),
-        Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => Err(failed(Reason::Unreadable(detail))),
-        Outcome::Progress(nothing) => match nothing {},
+        TaskOutcome::Failed(Failure::Refused(error)) => Err(failed(Reason::Engine(error))),
+        TaskOutcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
+            Err(failed(Reason::Unreadable(detail)))
+        }
+        TaskOutcome::Progress(nothing) => match nothing {},
     }
 }

@@ -4,15 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::teaching::{Lesson, LessonStep, Screen, pieces};
+use sightline_lab::teaching::{Lesson, LessonProgress, LessonStep, Reached, Screen, pieces};
 use sightline_protocol::Inquiry;
 
 use super::inside::{Network, Tab};
-use super::{Desk, Step};
-use crate::browser::file::choose;
+use super::{Desk, Step, Until};
+use crate::browser::file::{choose, download};
 use crate::browser::page;
 use crate::format;
-use crate::i18n::language;
+use crate::i18n::{language, text};
 
 /// The state of the lessons.
 #[derive(Clone, Copy, Default)]
@@ -37,14 +37,14 @@ pub struct Lessons {
 }
 
 impl Lessons {
-    /// The step that is shown; none before a lesson is chosen and at its summary.
+    /// The step that is shown; `None` before a lesson is chosen and at its summary.
     pub fn current(self) -> Option<LessonStep> {
         let step = self.step.get();
         self.now.with(|now| now.as_ref().and_then(|lesson| lesson.steps.get(step).cloned()))
     }
 
     /// A text in the language of the desk, with the values of its expressions.
-    pub fn said(self, words: &BTreeMap<String, String>) -> String {
+    pub fn in_language(self, words: &BTreeMap<String, String>) -> String {
         let text = words.get(language().tag()).or_else(|| words.get("en")).or_else(|| words.values().next());
         let value = |(expression, decimals): (&str, Option<usize>)| {
             self.values.with(|values| match (values.get(expression), decimals) {
@@ -59,10 +59,9 @@ impl Lessons {
         all.into_iter().map(|(before, inside)| before.to_owned() + &inside.map_or(String::new(), value)).collect()
     }
 
-    /// Step and right answers, as they stand in a link: `2;0,1`.
+    /// Step and right answers, as in a link: `2;0,1`.
     pub fn state(self) -> String {
-        let right: Vec<String> = self.right.with(|right| right.iter().map(usize::to_string).collect());
-        format!("{};{}", self.step.get(), right.join(","))
+        self.right.with(|right| written(self.step.get(), right))
     }
 
     /// How many questions of a lesson are answered, and how many there are.
@@ -70,6 +69,12 @@ impl Lessons {
         let (_, right) = kept(lesson);
         (right.len(), lesson.steps.iter().filter(|step| step.ask.is_some()).count())
     }
+}
+
+/// Step and right answers, as they are kept.
+fn written(step: usize, right: &BTreeSet<usize>) -> String {
+    let right: Vec<String> = right.iter().map(usize::to_string).collect();
+    format!("{step};{}", right.join(","))
 }
 
 fn key(lesson: &Lesson) -> String {
@@ -120,13 +125,53 @@ impl Desk {
         }
     }
 
-    /// Lets a lesson's file be chosen.
+    /// Hands over progress in all lessons as a file.
+    pub fn save_lesson_progress(self) {
+        let open = self.lessons.now.with_untracked(|now| now.as_ref().map(|lesson| lesson.id.clone()));
+        let begun = self.lessons.all.with_untracked(|all| {
+            let begun = all.iter().filter(|lesson| page::preference(&key(lesson)).is_some());
+            let reached = |lesson: &Arc<Lesson>| {
+                let (step, right) = kept(lesson);
+                (lesson.id.clone(), Reached { step, right })
+            };
+            begun.map(reached).collect()
+        });
+        let progress = LessonProgress::new(open, begun).text();
+        if let Err(detail) = download("lesson-progress.json", "application/json", progress.as_bytes()) {
+            self.say(true, Until::NextWork, move || text::cannot_save(&detail));
+        }
+    }
+
+    /// Takes the progress of a file in place of what was kept of these lessons, and opens the one that was open.
+    fn take_lesson_progress(self, progress: &LessonProgress) {
+        let lessons = self.lessons;
+        lessons.refused.set(None);
+        for (id, Reached { step, right }) in &progress.lessons {
+            page::set_preference(&format!("lesson.{id}"), &written(*step, right));
+        }
+        // The list shows what is kept; nothing else reports it.
+        lessons.all.update(|_| ());
+        let open = progress.open.as_ref();
+        let known = open.and_then(|id| lessons.all.with_untracked(|all| all.iter().find(|one| one.id == *id).cloned()));
+        if let Some(lesson) = known {
+            self.begin_lesson(&lesson);
+        }
+    }
+
+    /// Lets a lesson's file be chosen, or one of progress.
     pub fn open_lesson_file(self) {
         choose(".json", false, move |files| {
             leptos::task::spawn_local(async move {
                 for file in files {
                     match file.content.read().await {
-                        Ok(bytes) => self.inquire(Inquiry::ReadLesson(String::from_utf8_lossy(&bytes).into_owned())),
+                        Ok(bytes) => {
+                            let text = String::from_utf8_lossy(&bytes).into_owned();
+                            match LessonProgress::read(&text) {
+                                Some(Ok(progress)) => self.take_lesson_progress(&progress),
+                                Some(Err(error)) => self.lessons.refused.set(Some(error)),
+                                None => self.inquire(Inquiry::ReadLesson(text)),
+                            }
+                        }
                         Err(error) => self.lessons.refused.set(Some(error)),
                     }
                 }
@@ -150,7 +195,7 @@ impl Desk {
         self.go_to_lesson_step(if step < lesson.steps.len() { step } else { 0 });
     }
 
-    /// Goes to a step of the lesson and shows what it says.
+    /// Goes to a step of the lesson and shows its view.
     pub fn go_to_lesson_step(self, step: usize) {
         let (lessons, inside) = (self.lessons, self.inside);
         let Some(lesson) = lessons.now.get_untracked() else { return };
@@ -214,15 +259,14 @@ impl Desk {
         }
     }
 
-    /// Follows what stands after `inside/` in the address: a lesson and its state.
+    /// Applies the part of the address after `inside/`: a lesson and its state.
     pub fn follow_lesson(self, rest: &str) {
         let (id, state) = rest.split_once('/').unwrap_or((rest, ""));
         let known = self.lessons.all.with_untracked(|all| all.iter().find(|lesson| lesson.id == id).cloned());
         match known {
             Some(lesson) => {
                 let (step, right) = parsed(state, &lesson);
-                let right: Vec<String> = right.iter().map(usize::to_string).collect();
-                page::set_preference(&key(&lesson), &format!("{step};{}", right.join(",")));
+                page::set_preference(&key(&lesson), &written(step, &right));
                 self.lessons.shown.set(true);
                 self.begin_lesson(&lesson);
             }

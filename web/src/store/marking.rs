@@ -7,8 +7,9 @@ use leptos::prelude::*;
 use sightline::matching::Prediction;
 
 use super::Desk;
-use super::identity::Asked;
+use super::identity::PhotoPlace;
 use crate::edit::points;
+use crate::edit::questions::Question;
 use crate::i18n::text;
 
 /// Measuring point after point.
@@ -20,16 +21,27 @@ pub struct Series {
     home: Option<String>,
 }
 
-/// How near a place is looked at: photo pixels on either side, at least.
+/// How near a place is examined: photo pixels on either side, at least.
 const NEAR: f64 = 60.0;
-/// How far, in standard errors, a ray may be off where the others say, for a prediction to be believed.
+/// How far, in standard errors, a ray may deviate from the others for a prediction to be accepted.
 const SOUND: f64 = 5.0;
+
+/// Signals of measuring and naming points by hand.
+#[derive(Clone, Copy, Default)]
+pub struct Measuring {
+    /// Measuring of point after point through the photos, if it is on.
+    pub series: RwSignal<Option<Series>>,
+    /// Whether clicks in a photo place points without measuring a target there, as with Alt.
+    pub placing: RwSignal<bool>,
+    /// The open question of matching that is shown.
+    pub question: RwSignal<Option<Question>>,
+}
 
 impl Desk {
     /// Begins or ends measuring point after point.
     pub fn switch_series(self) {
         let next = self.free_name();
-        self.series.update(|series| {
+        self.measuring.series.update(|series| {
             *series = match series {
                 Some(_) => None,
                 None => Some(Series { next, home: None }),
@@ -41,7 +53,7 @@ impl Desk {
     pub fn set_next_name(self, typed: &str) {
         let name = typed.trim().to_owned();
         if !name.is_empty() {
-            self.series.update(|series| {
+            self.measuring.series.update(|series| {
                 if let Some(series) = series {
                     series.next = name;
                 }
@@ -50,7 +62,7 @@ impl Desk {
     }
 
     pub fn in_series(self) -> bool {
-        self.series.with(Option::is_some)
+        self.measuring.series.with(Option::is_some)
     }
 
     /// Whether the chosen point is measured in the photo that is shown.
@@ -59,9 +71,9 @@ impl Desk {
     }
 
     /// Takes a place of the photo for the point of the series, or begins the next one with it, and goes on.
-    pub fn take_in_series(self, photo: &str, asked: Asked) {
+    pub fn take_in_series(self, photo: &str, asked: PhotoPlace) {
         let point = self.selection.with_untracked(|s| s.point.clone()).filter(|_| !untrack(|| self.measured_here()));
-        let Some(series) = self.series.get_untracked() else { return };
+        let Some(series) = self.measuring.series.get_untracked() else { return };
         let name = match &point {
             Some(point) => point.clone(),
             None => self.document.with_untracked(|d| points::next_free(&d.project, &series.next)),
@@ -69,7 +81,7 @@ impl Desk {
         self.name_place(photo, asked, &name);
         if point.is_none() {
             let next = self.document.with_untracked(|d| points::next_free(&d.project, &name));
-            self.series.set(Some(Series { next, home: Some(photo.to_owned()) }));
+            self.measuring.series.set(Some(Series { next, home: Some(photo.to_owned()) }));
         }
         self.next_place();
     }
@@ -77,7 +89,7 @@ impl Desk {
     /// Photos further on in the list, round to the present one, in which the chosen point should be and is not measured.
     fn further_photos(self) -> Vec<String> {
         let (here, point) = self.selection.with_untracked(|s| (s.photo.clone(), s.point.clone()));
-        // What its own rays contradict says nothing of the photos that should not show the point.
+        // A point contradicted by its own rays is no evidence about the photos that should not show it.
         let sound =
             |p: &Prediction| p.rays > 2 && p.photos.iter().all(|photo| photo.off_sigmas.is_none_or(|off| off < SOUND));
         let prediction = untrack(|| self.prediction()).filter(|p| sound(p));
@@ -103,7 +115,7 @@ impl Desk {
         }
         match self.further_photos().into_iter().next() {
             Some(photo) => self.look_for_point(&photo),
-            None if self.series.with_untracked(Option::is_some) => self.finish_point(),
+            None if self.measuring.series.with_untracked(Option::is_some) => self.finish_point(),
             None => self.tell_here(|| text::in_all_it_should_be().to_owned()),
         }
     }
@@ -114,13 +126,13 @@ impl Desk {
         self.select_photo(photo);
         let predicted = prediction.as_ref().and_then(|p| p.photos.iter().find(|p| p.photo == photo));
         if let Some((place, ellipse)) = predicted.and_then(|p| Some((p.place?, p.ellipse(3.0)))) {
-            self.show_place.set(Some((place, NEAR.max(2.0 * ellipse.map_or(0.0, |ellipse| ellipse[0])))));
+            self.photo_view.show_place.set(Some((place, NEAR.max(2.0 * ellipse.map_or(0.0, |ellipse| ellipse[0])))));
         }
     }
 
     /// Ends the present point of the series: the next one begins where this one did.
     pub fn finish_point(self) {
-        let home = self.series.with_untracked(|s| s.as_ref().and_then(|s| s.home.clone()));
+        let home = self.measuring.series.with_untracked(|s| s.as_ref().and_then(|s| s.home.clone()));
         self.selection.update(|s| (s.point, s.target, s.spot) = (None, None, None));
         if let Some(home) = home {
             self.select_photo(&home);
@@ -149,7 +161,7 @@ impl Desk {
         let (photo, point) = self.selection.with_untracked(|s| (s.photo.clone(), s.point.clone()));
         let (Some(photo), Some(point)) = (photo, point) else { return };
         if let Some((target, _)) = untrack(|| self.candidates_here()).first().copied() {
-            self.name_place(&photo, Asked::Target(target), &point);
+            self.name_place(&photo, PhotoPlace::Target(target), &point);
             self.next_place();
         } else if let Some([u, v]) = untrack(|| self.prediction_here()).and_then(|p| p.place)
             && !untrack(|| self.measured_here())

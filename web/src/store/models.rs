@@ -10,9 +10,9 @@ use sightline::project::{Camera, Project};
 use sightline_protocol::{CompareModels, ConvertCamera};
 
 use super::Desk;
-use super::document::Change;
-use super::lasting::Stop;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::pool::TaskOutcome;
+use crate::document::Change;
 use crate::edit::{cameras, models};
 use crate::i18n::modelling as words;
 
@@ -27,21 +27,21 @@ pub struct Compared {
     pub rows: Vec<ComparedModel>,
 }
 
-/// What was found of a camera, with the document that it was found on.
+/// Result for a camera, with the project that it was computed from.
 #[derive(Clone, Debug)]
-pub struct Of<T> {
+pub struct CameraResult<T> {
     pub camera: String,
     pub project: Arc<Project>,
     pub found: Arc<T>,
 }
 
-/// What is known of camera models.
+/// State of camera models.
 #[derive(Clone, Copy, Debug)]
 pub struct Models {
     compared: RwSignal<Option<Compared>>,
-    pub(super) crossed: RwSignal<Option<Of<CrossValidation>>>,
-    pub(super) covered: RwSignal<Vec<Of<Coverage>>>,
-    /// What conversions have left, the latest of each camera.
+    pub(super) crossed: RwSignal<Option<CameraResult<CrossValidation>>>,
+    pub(super) covered: RwSignal<Vec<CameraResult<Coverage>>>,
+    /// Remaining differences of conversions, the latest of each camera.
     converted: RwSignal<Vec<ModelConversion>>,
 }
 
@@ -63,7 +63,7 @@ impl Desk {
         self.document.with(|d| Arc::ptr_eq(&d.project, &compared.of)).then_some(compared)
     }
 
-    /// What the conversion to the camera's present model has left.
+    /// Remaining difference of the conversion to the camera's present model.
     pub fn conversion_of(self, camera: &Camera) -> Option<ModelConversion> {
         let present = camera.interior.model().name;
         let of = |left: &ModelConversion| left.camera == camera.id && left.to == present && left.from != present;
@@ -94,10 +94,10 @@ impl Desk {
         };
         let task = ConvertCamera { project, camera: camera.to_owned(), model: model.to_owned() };
         let change = Change::ModelChosen { camera: camera.to_owned(), model: model.to_owned() };
-        let on_outcome = move |outcome: Outcome<ConvertCamera>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Done((converted, left), _) => {
+        let on_outcome = move |outcome: TaskOutcome<ConvertCamera>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Done((converted, left), _) => {
                 self.models.converted.update(|all| {
                     all.retain(|other| other.camera != left.camera);
                     all.push(left);
@@ -124,10 +124,10 @@ impl Desk {
         let adjust = AdjustOptions { snooping: false, robust: None, variance_components: None, ..own };
         let options = ModelsOptions { camera: Some(camera.to_owned()), adjust, ..ModelsOptions::default() };
         let camera = camera.to_owned();
-        let on_outcome = move |outcome: Outcome<CompareModels>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Done(rows, _) => {
+        let on_outcome = move |outcome: TaskOutcome<CompareModels>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Done(rows, _) => {
                 self.models.compared.set(Some(Compared { camera: camera.clone(), of: of.clone(), rows }));
             }
         };

@@ -16,20 +16,20 @@ use sightline::monitoring::{Epoch, Limits, Monitoring, Options, Pair, Thresholds
 use sightline::project::ReportSettings;
 use sightline_protocol::{CompareEpochs, ExportMonitoring, ReportEpochs, ReportMade, SampleEpochs};
 
-use super::lasting::Stop;
-use super::pool::{Failure, Outcome};
+use super::background::Stop;
+use super::pool::{Failure, TaskOutcome};
 use super::saving::file_stem;
 use super::{Desk, JobKind, Problem, Selection, Step, Until};
 use crate::browser::page;
 use crate::edit::epoch;
-use crate::i18n::{lasting, monitoring as words, speech};
+use crate::i18n::{background, monitoring as words, speech};
 
 /// Source of the epochs of the sample, shown in the language of the page.
 pub const SAMPLE: &str = "sample";
 
-/// An epoch as it was brought.
+/// An epoch in the list, and where it comes from.
 #[derive(Clone)]
-pub struct Entry {
+pub struct EpochEntry {
     /// Tells it from all others.
     pub id: u64,
     pub epoch: Arc<Epoch>,
@@ -41,7 +41,7 @@ pub struct Entry {
     pub matrix: Option<String>,
 }
 
-impl Entry {
+impl EpochEntry {
     /// Number of its points.
     pub fn points(&self) -> usize {
         let of_project = || self.epoch.project.as_ref().map(|p| p.points.len());
@@ -62,20 +62,20 @@ impl Entry {
     }
 }
 
-/// A comparison with what it was made from.
-pub struct Ran {
-    epochs: Vec<Entry>,
+/// Result of a comparison, with its input.
+pub struct ComparisonRun {
+    epochs: Vec<EpochEntry>,
     options: Options,
     pub found: Monitoring,
 }
 
-/// What the page shows.
+/// Pages of the comparison of epochs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
+pub enum MonitoringPage {
     /// Epochs and options.
     #[default]
     Setup,
-    /// What moved between two epochs.
+    /// Movements between two epochs.
     Displacements,
     /// One point through all epochs.
     Time,
@@ -95,7 +95,7 @@ pub enum Seen {
 }
 
 impl Seen {
-    /// What is to the right and upwards: unit vectors at right angles.
+    /// Right and upward directions: orthogonal unit vectors.
     pub fn axes(self) -> [[f64; 3]; 2] {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         match self {
@@ -113,12 +113,12 @@ impl Seen {
 /// The state of monitoring.
 #[derive(Clone, Copy, Default)]
 pub struct Monitored {
-    pub epochs: RwSignal<Vec<Entry>>,
+    pub epochs: RwSignal<Vec<EpochEntry>>,
     pub options: RwSignal<Options>,
-    pub view: RwSignal<View>,
+    pub view: RwSignal<MonitoringPage>,
     /// Files and projects that cannot be an epoch, and why.
     pub problems: RwSignal<Vec<Problem>>,
-    pub ran: RwSignal<Option<Arc<Ran>>>,
+    pub ran: RwSignal<Option<Arc<ComparisonRun>>>,
     /// Why the last comparison gave nothing.
     pub failure: RwSignal<Option<Error>>,
     /// The epoch that is shown, by its place in the list: its pair is the one with the first.
@@ -149,10 +149,10 @@ fn exaggeration(pair: &Pair) -> f64 {
 }
 
 impl Monitored {
-    /// What was found, where it is of the epochs and options as they are.
-    pub fn current(self) -> Option<Arc<Ran>> {
-        let same = |ran: &Arc<Ran>| {
-            let same = |(a, b): (&Entry, &Entry)| a.id == b.id && Arc::ptr_eq(&a.epoch, &b.epoch);
+    /// The result, if it is of the present epochs and options.
+    pub fn current(self) -> Option<Arc<ComparisonRun>> {
+        let same = |ran: &Arc<ComparisonRun>| {
+            let same = |(a, b): (&EpochEntry, &EpochEntry)| a.id == b.id && Arc::ptr_eq(&a.epoch, &b.epoch);
             self.epochs.with(|epochs| ran.epochs.len() == epochs.len() && ran.epochs.iter().zip(epochs).all(same))
                 && self.options.with(|options| *options == ran.options)
         };
@@ -175,17 +175,30 @@ impl Monitored {
     /// Names of points that every epoch has, in the order of the first.
     pub fn common(self) -> Vec<String> {
         self.epochs.with(|all| {
-            let mut all = all.iter().map(Entry::names);
+            let mut all = all.iter().map(EpochEntry::names);
             let Some(first) = all.next() else { return Vec::new() };
             let rest = all.map(|names| names.into_iter().collect::<std::collections::HashSet<_>>()).collect::<Vec<_>>();
             first.into_iter().filter(|name| rest.iter().all(|names| names.contains(name))).collect()
         })
     }
 
-    /// The unit of the epochs, where one says it.
+    /// Names of cameras that every epoch has, in the order of the first; none where an epoch is a list.
+    pub fn common_cameras(self) -> Vec<String> {
+        let of = |entry: &EpochEntry, name: &str| {
+            entry.epoch.project.as_ref().is_some_and(|p| p.cameras.iter().any(|camera| camera.id == name))
+        };
+        self.epochs.with(|all| {
+            let first = all.first().and_then(|entry| entry.epoch.project.as_ref());
+            let names = first.into_iter().flat_map(|p| p.cameras.iter().map(|camera| camera.id.clone()));
+            names.filter(|name| all.iter().all(|entry| of(entry, name))).collect()
+        })
+    }
+
+    /// The unit of the epochs, if one of them has it.
     pub fn unit(self) -> String {
-        let of =
-            |entry: &Entry| entry.epoch.unit.clone().or_else(|| entry.epoch.project.as_ref().map(|p| p.unit.clone()));
+        let of = |entry: &EpochEntry| {
+            entry.epoch.unit.clone().or_else(|| entry.epoch.project.as_ref().map(|p| p.unit.clone()))
+        };
         self.epochs.with(|all| all.iter().find_map(of).unwrap_or_default())
     }
 }
@@ -207,7 +220,7 @@ impl Desk {
         self.go(Step::Monitoring);
     }
 
-    /// Changes what is said of an epoch.
+    /// Changes the entries of an epoch.
     pub fn edit_epoch(self, id: u64, edit: impl FnOnce(&mut Epoch)) {
         self.monitoring.failure.set(None);
         self.monitoring.epochs.update(|all| {
@@ -271,9 +284,9 @@ impl Desk {
             epochs: epochs.iter().map(|entry| (*entry.epoch).clone()).collect(),
             options: options.clone(),
         };
-        let on_outcome = move |outcome: Outcome<CompareEpochs>| match outcome {
-            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
-            Outcome::Done(found, _) => {
+        let on_outcome = move |outcome: TaskOutcome<CompareEpochs>| match outcome {
+            TaskOutcome::Progress((done, of)) => self.count_job(batch, done, of),
+            TaskOutcome::Done(found, _) => {
                 self.end_job();
                 let known = |id: &String| found.pairs.iter().any(|pair| pair.points.iter().any(|p| p.id == *id));
                 if !monitored.point.with_untracked(|p| p.as_ref().is_some_and(known)) {
@@ -281,20 +294,26 @@ impl Desk {
                 }
                 monitored.later.set(found.epochs.len() - 1);
                 monitored.factor.set(None);
-                monitored.ran.set(Some(Arc::new(Ran { epochs: epochs.clone(), options: options.clone(), found })));
-                monitored.view.set(View::Displacements);
+                monitored.ran.set(Some(Arc::new(ComparisonRun {
+                    epochs: epochs.clone(),
+                    options: options.clone(),
+                    found,
+                })));
+                monitored.view.set(MonitoringPage::Displacements);
             }
-            Outcome::Failed(Failure::Refused(error)) => {
+            TaskOutcome::Failed(Failure::Refused(error)) => {
                 self.end_job();
                 monitored.failure.set(Some(error));
-                monitored.view.set(View::Setup);
+                // The reason stands above what may be scrolled to.
+                page::after(0, || page::focus_first("[data-found=failure]"));
+                monitored.view.set(MonitoringPage::Setup);
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
     /// Begins the next epoch of the project on the desk.
@@ -303,9 +322,9 @@ impl Desk {
         self.over_unsaved(move || {
             self.begin(next.clone());
             self.forget_waiting();
-            self.iterations.set(Vec::new());
-            self.files.set(std::collections::BTreeMap::new());
-            self.others.set_value(Vec::new());
+            self.processing.iterations.set(Vec::new());
+            self.photos.files.set(std::collections::BTreeMap::new());
+            self.photos.others.set_value(Vec::new());
             self.selection.set(Selection::default());
             self.go(Step::Photos);
         });
@@ -326,7 +345,7 @@ impl Desk {
                 monitored.epochs.set(Vec::new());
                 monitored.options.set(Options::default());
                 if of.key.is_empty() || !self.take_kept(of.key.clone(), of.name.clone()).await {
-                    monitored.view.set(View::Setup);
+                    monitored.view.set(MonitoringPage::Setup);
                     self.add_open_epoch();
                     return self.say(true, Until::Sight, move || words::first_is_gone(&of.name));
                 }
@@ -347,7 +366,7 @@ impl Desk {
             return Vec::new();
         }
         let mut found = Vec::new();
-        for one in self.shelf.get_untracked().unwrap_or_default() {
+        for one in self.shelf.projects.get_untracked().unwrap_or_default() {
             let listed =
                 self.monitoring.epochs.with_untracked(|all| all.iter().any(|e| e.key.as_ref() == Some(&one.id)));
             if listed || one.unreadable || Some(&one.id) == own || one.id == of.key {
@@ -366,9 +385,9 @@ impl Desk {
     pub fn open_sample_epochs(self) {
         let monitored = self.monitoring;
         let batch = self.start_job(JobKind::Comparing, 3, || {});
-        let on_outcome = move |outcome: Outcome<SampleEpochs>| match outcome {
-            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
-            Outcome::Done(epochs, _) => {
+        let on_outcome = move |outcome: TaskOutcome<SampleEpochs>| match outcome {
+            TaskOutcome::Progress((done, of)) => self.count_job(batch, done, of),
+            TaskOutcome::Done(epochs, _) => {
                 self.end_job();
                 monitored.problems.set(Vec::new());
                 monitored.epochs.set(Vec::new());
@@ -384,12 +403,12 @@ impl Desk {
                 self.go(Step::Monitoring);
                 self.compare_epochs();
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, SampleEpochs {}, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, SampleEpochs {}, Vec::new(), on_outcome));
     }
 
     /// Has the report of what was found made, in the language of the desk.
@@ -405,12 +424,12 @@ impl Desk {
         };
         let Some(ran) = monitored.current() else { return monitored.report.set(None) };
         let task = ReportEpochs { found: ran.found.clone(), options: ran.options.clone(), settings };
-        let on_outcome = move |outcome: Outcome<ReportEpochs>| match outcome {
-            Outcome::Done(made, _) => monitored.report.set(Some(made)),
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+        let on_outcome = move |outcome: TaskOutcome<ReportEpochs>| match outcome {
+            TaskOutcome::Done(made, _) => monitored.report.set(Some(made)),
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::report, || ()), task, Vec::new(), on_outcome);
+        self.ask(Stop(background::report, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Hands over what was found: `csv`, `json`, or `dxf` and `gltf` of the pair that is shown.
@@ -424,15 +443,15 @@ impl Desk {
         // glTF in its binary form, one file.
         let ending = if format == "gltf" { "glb" } else { format };
         let task = ExportMonitoring { found: ran.found.clone(), format: format.to_owned(), pair: number, factor };
-        let on_outcome = move |outcome: Outcome<ExportMonitoring>| match outcome {
-            Outcome::Done((), bytes) => {
+        let on_outcome = move |outcome: TaskOutcome<ExportMonitoring>| match outcome {
+            TaskOutcome::Done((), bytes) => {
                 let kind = if format == "csv" { "text/csv" } else { "application/octet-stream" };
                 bytes.iter().for_each(|bytes| self.hand_over(&format!("{stem}.{ending}"), kind, bytes));
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::file, || ()), task, Vec::new(), on_outcome);
+        self.ask(Stop(background::file, || ()), task, Vec::new(), on_outcome);
     }
 }
 

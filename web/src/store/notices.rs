@@ -1,4 +1,4 @@
-//! What the desk tells and asks, and how long there is reason to.
+//! Messages and questions of the desk, and how long a message is shown.
 
 use std::rc::Rc;
 use std::sync::Arc;
@@ -7,40 +7,48 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::Error;
 
-use super::document::Document;
 use super::{Desk, Step};
 use crate::browser::page;
+use crate::document::Document;
 use crate::i18n::{Text, errors, text};
 
 /// A question that something waits for; cancelling it is always possible.
 #[derive(Clone)]
 pub struct Asking {
     pub text: Rc<dyn Fn() -> String>,
-    /// What can be chosen, the most likely first.
+    /// Choices, the most probable first.
     pub choices: Vec<(Text, Rc<dyn Fn()>)>,
 }
 
-/// Something to tell, in whatever language is in use when it is read. It goes when its cause goes.
+/// A message, in the language in use when it is read. It disappears with its cause.
 #[derive(Clone)]
 pub struct Notice {
     pub warning: bool,
     pub text: Arc<dyn Fn() -> String + Send + Sync>,
     until: Until,
-    /// The document, step and photo that it was told of.
+    /// The document, step and photo that it is about.
     of: (Document, Step, Option<String>),
 }
 
-/// How long there is reason to tell something; new work ends it in any case.
+/// How long a message is shown; a new task ends it in any case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Until {
-    /// It is of what was done last, and stays until something else is done.
+    /// About the last task: until another one starts.
     NextWork,
-    /// It is of the document as it was.
+    /// About the document: until it changes.
     Document,
-    /// It is of what is in sight: the document, the step and the photo.
+    /// About what is in sight: until document, step or photo change.
     Sight,
-    /// It is of the work under way.
+    /// About the running task: until it ends.
     WorkEnds,
+}
+
+/// Signals of the message and the question in front of the user.
+#[derive(Clone, Copy, Default)]
+pub struct Messages {
+    pub notice: RwSignal<Option<Notice>>,
+    /// A question that the running action waits for.
+    pub asking: RwSignal<Option<Asking>, LocalStorage>,
 }
 
 impl Desk {
@@ -67,7 +75,7 @@ impl Desk {
     /// Tells something until there is no reason to any more, until it is dismissed or until something newer is told.
     pub fn say(self, warning: bool, until: Until, text: impl Fn() -> String + Send + Sync + 'static) {
         let of = untrack(|| self.in_sight());
-        self.notice.set(Some(Notice { warning, text: Arc::new(text), until, of }));
+        self.messages.notice.set(Some(Notice { warning, text: Arc::new(text), until, of }));
     }
 
     fn in_sight(self) -> (Document, Step, Option<String>) {
@@ -77,8 +85,8 @@ impl Desk {
     /// Takes the notice away when its cause is gone; to be run whenever something changes.
     pub fn drop_stale_notice(self) {
         let (document, step, photo) = self.in_sight();
-        let busy = self.job.with(Option::is_some);
-        let stale = self.notice.with_untracked(|notice| {
+        let busy = self.tasks.job.with(Option::is_some);
+        let stale = self.messages.notice.with_untracked(|notice| {
             notice.as_ref().is_some_and(|notice| match notice.until {
                 Until::NextWork => false,
                 Until::Document => !document.same(&notice.of.0),
@@ -87,7 +95,7 @@ impl Desk {
             })
         });
         if stale {
-            self.notice.set(None);
+            self.messages.notice.set(None);
         }
     }
 
@@ -104,7 +112,7 @@ impl Desk {
     pub fn look_for_another_build(self) {
         spawn_local(async move {
             if page::host_has_another_build().await {
-                self.outdated.set(true);
+                self.connection.outdated.set(true);
             }
         });
     }

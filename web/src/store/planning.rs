@@ -4,25 +4,25 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::exchange::control_csv::{self, Choices};
-use sightline::plan::{Criterion, Ended, MakeOptions, Prediction, Suggested};
 use sightline::project::{Plan, PlanStation, Project};
 use sightline::units;
+use sightline_exchange::control_csv::{self, ControlTable, TableChoices};
+use sightline_plan::{Criterion, Ended, MakeOptions, Prediction, Suggested};
 use sightline_protocol::{BeginPlan, MakePlan, Open, PlanOf, PredictPlan, SuggestPhoto};
 
-use super::document::Change;
+use super::background::Stop;
 use super::intake::SMALL_SIDE;
-use super::lasting::Stop;
-use super::pool::{Failure, Outcome};
+use super::pool::{Failure, TaskOutcome};
 use super::{Desk, JobKind};
 use crate::browser::file::NamedFile;
+use crate::document::Change;
 use crate::edit::cameras::{self, Signature};
 use crate::edit::control::has_lengths;
 use crate::edit::plan;
 use crate::i18n::planning as words;
-use crate::i18n::{lasting, text};
+use crate::i18n::{background, text};
 
-/// What is known of the plan.
+/// State of the plan.
 #[derive(Clone, Copy)]
 pub struct Planning {
     /// The plan as it is while a station is dragged.
@@ -36,7 +36,7 @@ pub struct Planning {
     pub unit: RwSignal<String>,
     /// Places for the next photo, of the plan as it is.
     pub suggested: RwSignal<Vec<Suggested>>,
-    /// Whether dragging in a view draws where nobody can stand.
+    /// Whether dragging in a view draws a region without access.
     pub fencing: RwSignal<bool>,
     /// A prediction is under way, and what is to be predicted next.
     busy: StoredValue<bool>,
@@ -78,7 +78,7 @@ impl Desk {
         self.with_plan(Plan::clone)
     }
 
-    /// The unit of a plan that is begun: what has lengths keeps its own. None, and said so, for one that is not known.
+    /// The unit of a plan that is begun: a plan with lengths keeps its unit. `None`, with a message, for an unknown unit.
     fn unit_to_begin(self) -> Option<(String, f64)> {
         let own = self
             .document
@@ -102,14 +102,14 @@ impl Desk {
         });
     }
 
-    /// Takes a list of points into the plan, or begins one of them. A bad row is told, and then nothing is taken.
+    /// Takes a list of points into the plan, or begins one of them. If a row is invalid, it is reported and nothing is imported.
     pub fn take_plan_points(self, content: &str) {
         let Some((unit, mm)) = self.unit_to_begin() else { return };
         let project_axes = self.document.with_untracked(|d| d.project.axes);
-        let table = control_csv::parse_with(content, Choices { project_axes, ..Choices::default() });
+        let table = control_csv::parse_with(content, TableChoices { project_axes, ..TableChoices::default() });
         // A heading's unit is converted to the plan's; without one the coordinates are in the plan's.
         let factor = table.unit.map_or(Ok(1.0), |own| units::factor(own.symbol(), &unit));
-        let read = table.into_points().and_then(|points| {
+        let read = table.in_given_system().and_then(ControlTable::into_points).and_then(|points| {
             Project { points: points.into(), ..Project::default() }.scaled(factor?).map(|project| project.points)
         });
         let points = match read {
@@ -133,11 +133,11 @@ impl Desk {
         }
     }
 
-    /// Plans with the camera that a photo was taken with, as far as its file says.
+    /// Plans with the camera that a photo was taken with, if its file contains the data.
     pub fn plan_with_photo(self, photo: NamedFile) {
         let NamedFile { name, content } = photo;
-        let on_outcome = move |outcome: Outcome<Open>| match outcome {
-            Outcome::Done(opened, _) => {
+        let on_outcome = move |outcome: TaskOutcome<Open>| match outcome {
+            TaskOutcome::Done(opened, _) => {
                 let signature = Signature::of(&name, &opened.info, opened.size);
                 let camera = cameras::camera(&signature, &opened.info, &Project::default());
                 if plan::is_known(&camera) {
@@ -147,10 +147,10 @@ impl Desk {
                     self.warn_here(move || words::no_focal_length(&name));
                 }
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        let stop = Stop(lasting::photo, || ());
+        let stop = Stop(background::photo, || ());
         self.ask(stop, Open { max_side: SMALL_SIDE }, vec![content], on_outcome);
     }
 
@@ -161,12 +161,12 @@ impl Desk {
             PlanOf::Example(ref name) => Some(if name == "kim" { "m" } else { "mm" }),
             PlanOf::Project(_) => None,
         };
-        let on_outcome = move |outcome: Outcome<BeginPlan>| match outcome {
-            Outcome::Done(made, _) => self.change(Change::PlanEdited, |document| plan::put(document, made, unit)),
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+        let on_outcome = move |outcome: TaskOutcome<BeginPlan>| match outcome {
+            TaskOutcome::Done(made, _) => self.change(Change::PlanEdited, |document| plan::put(document, made, unit)),
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::plan, || ()), BeginPlan { of }, Vec::new(), on_outcome);
+        self.ask(Stop(background::plan, || ()), BeginPlan { of }, Vec::new(), on_outcome);
     }
 
     /// Changes the plan so that it can be undone.
@@ -194,14 +194,14 @@ impl Desk {
             return self.planning.next.set_value(Some(plan));
         }
         self.planning.busy.set_value(true);
-        let on_outcome = move |outcome: Outcome<PredictPlan>| {
+        let on_outcome = move |outcome: TaskOutcome<PredictPlan>| {
             match outcome {
-                Outcome::Done(predictions, _) => {
+                TaskOutcome::Done(predictions, _) => {
                     self.planning.predicted.set(Some(Ok(predictions.into_iter().map(Arc::new).collect())))
                 }
-                Outcome::Failed(Failure::Refused(error)) => self.planning.predicted.set(Some(Err(error))),
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Failed(Failure::Refused(error)) => self.planning.predicted.set(Some(Err(error))),
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
             self.planning.busy.set_value(false);
             if let Some(plan) = self.planning.next.try_update_value(Option::take).flatten() {
@@ -212,7 +212,7 @@ impl Desk {
             self.planning.next.set_value(None);
             self.planning.busy.set_value(false);
         };
-        self.ask(Stop(lasting::plan, stopped), PredictPlan { plan }, Vec::new(), on_outcome);
+        self.ask(Stop(background::plan, stopped), PredictPlan { plan }, Vec::new(), on_outcome);
     }
 
     /// Looks for the next photo.
@@ -221,21 +221,21 @@ impl Desk {
         let criterion = self.planning.criterion.get_untracked();
         let batch = self.start_job(JobKind::Planning, 1, || {});
         let asked = plan.clone();
-        let on_outcome = move |outcome: Outcome<SuggestPhoto>| match outcome {
-            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
-            Outcome::Done(found, _) => {
+        let on_outcome = move |outcome: TaskOutcome<SuggestPhoto>| match outcome {
+            TaskOutcome::Progress((done, of)) => self.count_job(batch, done, of),
+            TaskOutcome::Done(found, _) => {
                 self.end_job();
                 // Of another plan they would mean nothing.
                 if untrack(|| self.plan()).as_ref() == Some(&asked) {
                     self.planning.suggested.set(found);
                 }
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, SuggestPhoto { plan, criterion }, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, SuggestPhoto { plan, criterion }, Vec::new(), on_outcome));
     }
 
     /// Takes a suggested photo into the plan.
@@ -249,9 +249,9 @@ impl Desk {
     pub fn make_plan(self) {
         let Some(plan) = untrack(|| self.plan()) else { return };
         let batch = self.start_job(JobKind::Planning, 1, || {});
-        let on_outcome = move |outcome: Outcome<MakePlan>| match outcome {
-            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
-            Outcome::Done(made, _) => {
+        let on_outcome = move |outcome: TaskOutcome<MakePlan>| match outcome {
+            TaskOutcome::Progress((done, of)) => self.count_job(batch, done, of),
+            TaskOutcome::Done(made, _) => {
                 self.end_job();
                 self.planning.chosen.set(None);
                 let (count, ended) = (made.stations.len(), made.ended);
@@ -266,12 +266,12 @@ impl Desk {
                     });
                 }
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
         };
         let task = MakePlan { plan, options: MakeOptions::default() };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 }

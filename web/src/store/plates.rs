@@ -5,10 +5,10 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::Error;
-use sightline::exchange::Files;
-use sightline::exchange::comparator::{self, Reduced};
-use sightline::experiments;
 use sightline::film::comparator::Upwards;
+use sightline_exchange::Files;
+use sightline_exchange::comparator::{self, Reduced};
+use sightline_lab::experiments;
 
 use super::{Desk, Step};
 use crate::browser::file::NamedFile;
@@ -19,7 +19,7 @@ use crate::i18n::experiments as words;
 pub struct Plates {
     /// The description as typed; none: that of the film experiment.
     pub description: RwSignal<Option<String>>,
-    /// What came of it.
+    /// Result.
     pub outcome: RwSignal<Option<Result<Arc<Reduced>, Error>>>,
 }
 
@@ -35,7 +35,7 @@ impl Desk {
         }
     }
 
-    /// Reads files of readings, and whatever description comes with them, and carries them onto the fiducial marks.
+    /// Reads files of readings, and whatever description comes with them, and transforms them to the fiducial marks.
     pub fn reduce_plates(self, files: Vec<NamedFile>) {
         let description = self.plates_description();
         spawn_local(async move {

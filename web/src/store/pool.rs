@@ -11,8 +11,8 @@ use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::worker::{Bytes, Message, Worker};
 
-/// What becomes of a task. Everything but progress ends it.
-pub enum Outcome<T: Task> {
+/// Message of a worker about a task. Every message except progress ends the task.
+pub enum TaskOutcome<T: Task> {
     /// It goes on.
     Progress(T::Progress),
     /// It is done; the bytes belong to the answer.
@@ -27,23 +27,23 @@ pub enum Failure {
     Refused(Error),
     /// A file could not be read; the browser's words.
     Unreadable(String),
-    /// The worker was lost, or said what is no answer to this task.
+    /// The worker was lost, or sent an invalid answer.
     Lost(String),
 }
 
-/// What a worker says to a task, before it is known what that means.
+/// Message of a worker about a task, not yet decoded.
 enum Heard {
     Said(Vec<u8>, Vec<Bytes>),
     Lost(String),
 }
 
-/// What was heard, understood: whether it ends the task, and the telling of it.
+/// The decoded message: whether it ends the task, and the callback for it.
 struct Understood {
     ends: bool,
     tell: Box<dyn FnOnce()>,
 }
 
-/// Understands what is said to a task.
+/// Decodes a message to a task.
 type Listener = Rc<dyn Fn(Heard) -> Understood>;
 
 /// Of a photo whose size is not known yet.
@@ -60,7 +60,7 @@ const LONG: usize = 1 << 18;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch(usize);
 
-struct Job {
+struct QueuedTask {
     batch: Batch,
     request: Request,
     files: Vec<Blob>,
@@ -72,12 +72,12 @@ struct Job {
 struct Slot {
     worker: Worker,
     ready: bool,
-    task: Option<Job>,
+    task: Option<QueuedTask>,
     /// Bytes that its engine had taken when its last task ended.
     taken: f64,
 }
 
-impl Job {
+impl QueuedTask {
     /// Whether it takes what no other photo takes.
     fn is_apart(&self) -> bool {
         self.files.is_empty() || self.request.is_apart()
@@ -85,7 +85,7 @@ impl Job {
 }
 
 struct Inner {
-    queue: VecDeque<Job>,
+    queue: VecDeque<QueuedTask>,
     slots: BTreeMap<usize, Slot>,
     next: usize,
     /// Of the largest photo.
@@ -137,18 +137,18 @@ impl Pool {
         batch: Batch,
         task: T,
         files: Vec<Blob>,
-        on_outcome: impl FnMut(Outcome<T>) + 'static,
+        on_outcome: impl FnMut(TaskOutcome<T>) + 'static,
     ) {
         self.0.borrow_mut().queue.push_back(job(batch, task, files, on_outcome));
         self.pump();
     }
 
-    /// Puts a task before all others: somebody waits for it with the pointer in hand.
+    /// Puts a task before all others, for interactive requests.
     pub fn submit_first<T: Task + Into<Request>>(
         &self,
         task: T,
         files: Vec<Blob>,
-        on_outcome: impl FnMut(Outcome<T>) + 'static,
+        on_outcome: impl FnMut(TaskOutcome<T>) + 'static,
     ) -> Batch {
         let batch = self.batch();
         self.0.borrow_mut().queue.push_front(job(batch, task, files, on_outcome));
@@ -164,7 +164,7 @@ impl Pool {
         }
     }
 
-    /// Ends everything of a batch at once; nothing more is heard of it.
+    /// Cancels all tasks of a batch at once, without further messages.
     pub fn cancel(&self, batch: Batch) {
         let ended = {
             let mut inner = self.0.borrow_mut();
@@ -236,9 +236,9 @@ impl Pool {
                 let Some((listener, batch)) = task else { return };
                 let long = body.len() > LONG;
                 let understood = listener(Heard::Said(body, bytes));
-                // Free before it is told: who hears of it may submit what comes next.
+                // Freed before the callback, which may submit the next task.
                 self.free(id, taken, understood.ends);
-                // What is said on the way is told at once, so that it never comes after the end.
+                // Progress messages are delivered at once, so that they never follow the end of the task.
                 if long && understood.ends {
                     self.tell_soon(batch, understood.tell);
                 } else {
@@ -254,7 +254,7 @@ impl Pool {
                 if let Some(again) = task.take_if(|task| !task.tried) {
                     let mut inner = self.0.borrow_mut();
                     inner.most = (inner.slots.len() + 1).div_ceil(2);
-                    inner.queue.push_front(Job { tried: true, ..again });
+                    inner.queue.push_front(QueuedTask { tried: true, ..again });
                 }
                 for task in task.into_iter().chain(waiting) {
                     ((task.listener)(Heard::Lost(detail.clone())).tell)();
@@ -286,12 +286,12 @@ impl Pool {
     fn free(&self, id: usize, taken: f64, ended: bool) {
         let mut inner = self.0.borrow_mut();
         let Some(slot) = inner.slots.get_mut(&id) else { return };
-        let apart = slot.task.as_ref().is_some_and(Job::is_apart);
+        let apart = slot.task.as_ref().is_some_and(QueuedTask::is_apart);
         let outgrown = apart && taken > slot.taken.max(GROWN);
         if ended {
             (slot.task, slot.taken) = (None, taken);
         }
-        // What is taken once says nothing of all the photos.
+        // A single photo is not evidence about all photos.
         if !apart {
             inner.taken = inner.taken.max(taken);
         }
@@ -326,28 +326,28 @@ fn discard(slots: Vec<Slot>) {
     page::after(0, move || drop(slots));
 }
 
-/// A task with the way in which its words are understood: what is no answer to it ends it, and is told.
+/// A task with the way in which its words are understood: an invalid answer ends it and is reported.
 fn job<T: Task + Into<Request>>(
     batch: Batch,
     task: T,
     files: Vec<Blob>,
-    on_outcome: impl FnMut(Outcome<T>) + 'static,
-) -> Job {
+    on_outcome: impl FnMut(TaskOutcome<T>) + 'static,
+) -> QueuedTask {
     let on_outcome = Rc::new(RefCell::new(on_outcome));
     let listener = move |heard: Heard| {
         let outcome = match heard {
             Heard::Said(body, bytes) => match from_bytes::<SaidTo<T>>(&body) {
-                Ok(Said::Progress(progress)) => Outcome::Progress(progress),
-                Ok(Said::Done(answer)) => Outcome::Done(answer, bytes),
-                Ok(Said::Refused(error)) => Outcome::Failed(Failure::Refused(*error)),
-                Ok(Said::Unreadable(detail)) => Outcome::Failed(Failure::Unreadable(detail)),
-                Err(detail) => Outcome::Failed(Failure::Lost(detail)),
+                Ok(Said::Progress(progress)) => TaskOutcome::Progress(progress),
+                Ok(Said::Done(answer)) => TaskOutcome::Done(answer, bytes),
+                Ok(Said::Refused(error)) => TaskOutcome::Failed(Failure::Refused(*error)),
+                Ok(Said::Unreadable(detail)) => TaskOutcome::Failed(Failure::Unreadable(detail)),
+                Err(detail) => TaskOutcome::Failed(Failure::Lost(detail)),
             },
-            Heard::Lost(detail) => Outcome::Failed(Failure::Lost(detail)),
+            Heard::Lost(detail) => TaskOutcome::Failed(Failure::Lost(detail)),
         };
-        let ends = !matches!(outcome, Outcome::Progress(_));
+        let ends = !matches!(outcome, TaskOutcome::Progress(_));
         let on_outcome = on_outcome.clone();
         Understood { ends, tell: Box::new(move || (on_outcome.borrow_mut())(outcome)) }
     };
-    Job { batch, request: task.into(), files, listener: Rc::new(listener), tried: false }
+    QueuedTask { batch, request: task.into(), files, listener: Rc::new(listener), tried: false }
 }

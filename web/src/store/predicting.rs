@@ -1,4 +1,4 @@
-//! Where the chosen point should be: asked of the workers whenever point, photo or orientation change. The photos stand where
+//! Predicted position of the selected point: requested from the workers whenever point, photo or orientation change. The photos stand where
 //! the last adjustment has them; while photos are still without one, where their measurements so far put them.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,12 +9,12 @@ use sightline::matching::{PhotoPrediction, PredictOptions, Prediction};
 use sightline::project::{Point, Project};
 use sightline_protocol::{Predict, Situate, Situated};
 
-use super::document::Outcome as Result;
-use super::lasting::Stop;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::pool::TaskOutcome;
 use super::{Desk, Step};
 use crate::browser::page;
-use crate::i18n::lasting as words;
+use crate::document::AdjustmentResult;
+use crate::i18n::background as words;
 
 /// Measurements of a photo below which it is not looked whether it can be oriented.
 const ENOUGH: usize = 5;
@@ -23,10 +23,10 @@ const MOST: usize = 20_000;
 /// Time, in milliseconds, after a change before photos are oriented: several marks in a row are one change.
 const PAUSE: i32 = 300;
 
-/// What the photos' places are from.
+/// Source of the photos' positions.
 #[derive(Clone, Debug)]
 enum Source {
-    Adjusted(Arc<Result>),
+    Adjusted(Arc<AdjustmentResult>),
     Measured(Arc<Project>),
 }
 
@@ -34,14 +34,14 @@ enum Source {
 #[derive(Clone, Debug)]
 struct Situation {
     source: Source,
-    /// None where nothing can be oriented.
+    /// `None` if nothing can be oriented.
     situated: Option<Arc<Situated>>,
 }
 
-/// Where photos stand, the point with its observations, and the photo that is shown.
-type Asked = (Arc<Situated>, Project, Option<String>);
+/// Oriented photos, the point with its observations, and the photo that is shown.
+type PredictionInput = (Arc<Situated>, Project, Option<String>);
 
-/// What is known and asked about where the chosen point should be.
+/// State of the prediction of the selected point and of the questions about it.
 #[derive(Clone, Copy, Default)]
 pub struct Predicting {
     situation: RwSignal<Option<Situation>>,
@@ -49,11 +49,11 @@ pub struct Predicting {
     prediction: RwSignal<Option<Arc<Prediction>>>,
     /// The question under way.
     asking: RwSignal<bool>,
-    asked: StoredValue<Option<Asked>>,
+    asked: StoredValue<Option<PredictionInput>>,
 }
 
 /// Whether a result has all photos that could be oriented.
-fn covers(result: &Result, project: &Project) -> bool {
+fn covers(result: &AdjustmentResult, project: &Project) -> bool {
     let adjusted = result.adjustment.photos.iter().map(|p| p.id.as_str()).collect::<BTreeSet<_>>();
     let mut counts = BTreeMap::<&str, usize>::new();
     for o in project.observations.iter().filter(|o| o.enabled && !adjusted.contains(o.photo.as_str())) {
@@ -111,7 +111,7 @@ impl Desk {
             }
             return;
         }
-        if self.job.with(Option::is_some) {
+        if self.tasks.job.with(Option::is_some) {
             return;
         }
         self.predicting.situating.set(true);
@@ -122,12 +122,12 @@ impl Desk {
         let (project, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
         let of = project.clone();
         let task = Situate { project: (*project).clone(), options };
-        let on_outcome = move |outcome: Outcome<Situate>| {
+        let on_outcome = move |outcome: TaskOutcome<Situate>| {
             let situated = match outcome {
-                Outcome::Progress(nothing) => match nothing {},
-                Outcome::Done(situated, _) => Some(Arc::new(situated)),
-                // Too little is measured as yet, or in contradiction: the adjustment will say so when it is asked.
-                Outcome::Failed(_) => None,
+                TaskOutcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Done(situated, _) => Some(Arc::new(situated)),
+                // Too little is measured yet, or contradictory: the adjustment will report it.
+                TaskOutcome::Failed(_) => None,
             };
             let source = Source::Measured(project.clone());
             self.predicting.situation.set(Some(Situation { source, situated }));
@@ -165,7 +165,7 @@ impl Desk {
             ..Project::default()
         };
         let same = self.predicting.asked.with_value(|asked| {
-            let same = |(of, q, p): &Asked| Arc::ptr_eq(of, &situated) && *q == question && *p == photo;
+            let same = |(of, q, p): &PredictionInput| Arc::ptr_eq(of, &situated) && *q == question && *p == photo;
             asked.as_ref().is_some_and(same)
         });
         if same {
@@ -180,11 +180,11 @@ impl Desk {
         let task = Predict { project, adjustment: situated.adjustment.clone(), point, options };
         self.predicting.asked.set_value(Some((situated, question, photo)));
         self.predicting.asking.set(true);
-        let on_outcome = move |outcome: Outcome<Predict>| {
+        let on_outcome = move |outcome: TaskOutcome<Predict>| {
             let prediction = match outcome {
-                Outcome::Progress(nothing) => match nothing {},
-                Outcome::Done(prediction, _) => Some(Arc::new(prediction)),
-                Outcome::Failed(_) => None,
+                TaskOutcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Done(prediction, _) => Some(Arc::new(prediction)),
+                TaskOutcome::Failed(_) => None,
             };
             self.predicting.prediction.set(prediction);
             self.predicting.asking.set(false);
@@ -250,7 +250,7 @@ mod tests {
         let oriented = Arc::new(Project::default());
         let photos = vec![sightline::adjustment::AdjustedPhoto { id: "1".into(), ..Default::default() }];
         let adjustment = sightline::adjustment::Adjustment { photos, ..Default::default() };
-        let result = Result { input: oriented.clone(), oriented, adjustment };
+        let result = AdjustmentResult { input: oriented.clone(), oriented, adjustment };
         assert!(covers(&result, &project(&[("1", 9), ("2", 4)])));
         assert!(!covers(&result, &project(&[("1", 9), ("2", 5)])));
     }

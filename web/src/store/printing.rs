@@ -1,19 +1,19 @@
-//! Targets to print: options, drawings by a worker, and saving the files. It is no part of the document: the choice is kept as a preference.
+//! Targets to print: options, drawings by a worker, and saving the files. It is not part of the document: the choice is kept as a preference.
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::sheets::SheetOptions;
 use sightline_protocol::{DrawSheets, Drawn, WriteSheets, from_text, to_text};
+use sightline_report::sheets::SheetOptions;
 
 use super::Desk;
-use super::lasting::Stop;
-use super::pool::{Failure, Outcome};
+use super::background::Stop;
+use super::pool::{Failure, TaskOutcome};
 use crate::browser::page;
-use crate::i18n::{lasting as words, speech};
+use crate::i18n::{background as words, speech};
 
 const PREFERENCE: &str = "sheets";
 
-/// What is printed.
+/// Signals of the printed sheets.
 #[derive(Clone, Copy)]
 pub struct Printing {
     pub options: RwSignal<SheetOptions>,
@@ -51,7 +51,7 @@ impl Desk {
         self.printing.options.with_untracked(|options| page::set_preference(PREFERENCE, &to_text(options)));
     }
 
-    /// What is printed, in the language of the desk.
+    /// The printed document, in the language of the desk.
     pub fn sheet_options(self) -> SheetOptions {
         SheetOptions { language: speech().pages(), ..self.printing.options.get() }
     }
@@ -63,8 +63,8 @@ impl Desk {
             *n
         });
         let last = move || self.printing.order.try_get_value() == order;
-        let on_outcome = move |outcome: Outcome<DrawSheets>| match outcome {
-            Outcome::Done(drawn, _) if last() => {
+        let on_outcome = move |outcome: TaskOutcome<DrawSheets>| match outcome {
+            TaskOutcome::Done(drawn, _) if last() => {
                 // Fewer sheets than before: the last is shown.
                 let most = drawn.titles.len().saturating_sub(1);
                 self.printing.drawn.set(Some(Ok(drawn)));
@@ -72,10 +72,10 @@ impl Desk {
                     self.printing.sheet.set(most);
                 }
             }
-            Outcome::Failed(Failure::Refused(error)) if last() => self.printing.drawn.set(Some(Err(error))),
-            Outcome::Failed(failure) if last() => self.tell_failure(failure),
-            Outcome::Done(..) | Outcome::Failed(_) => {}
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(Failure::Refused(error)) if last() => self.printing.drawn.set(Some(Err(error))),
+            TaskOutcome::Failed(failure) if last() => self.tell_failure(failure),
+            TaskOutcome::Done(..) | TaskOutcome::Failed(_) => {}
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
         self.ask(Stop(words::sheets, || ()), DrawSheets { options, sheet }, Vec::new(), on_outcome);
     }
@@ -89,8 +89,8 @@ impl Desk {
             Saved::Svg => WriteSheets { options, pdf: false, svg: Some(sheet) },
             Saved::Lists => WriteSheets { options, pdf: false, svg: None },
         };
-        let on_outcome = move |outcome: Outcome<WriteSheets>| match outcome {
-            Outcome::Done(names, bytes) => {
+        let on_outcome = move |outcome: TaskOutcome<WriteSheets>| match outcome {
+            TaskOutcome::Done(names, bytes) => {
                 for (name, bytes) in names.iter().zip(&bytes) {
                     let kind = match name.rsplit_once('.').map_or("", |(_, ending)| ending) {
                         "pdf" => "application/pdf",
@@ -100,8 +100,8 @@ impl Desk {
                     self.hand_over(name, kind, bytes);
                 }
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
         self.ask(Stop(words::sheets, || ()), task, Vec::new(), on_outcome);
     }
@@ -120,7 +120,7 @@ impl Desk {
     }
 }
 
-/// What is handed over.
+/// The transferred objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Saved {
     Pdf,

@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 
-use super::document::Change;
 use super::{Desk, Kind, Marking};
+use crate::document::Change;
 use crate::edit::questions::{self, Question};
 use crate::i18n::text;
 
@@ -15,7 +15,7 @@ impl Desk {
 
     /// The question that is asked, while its place is in sight.
     pub fn asked_question(self) -> Option<Question> {
-        let asked = self.question.get()?;
+        let asked = self.measuring.question.get()?;
         let here = self.selection.with(|s| s.photo.as_ref() == Some(&asked.photo) && s.point == asked.point);
         (here && self.document.with(|d| questions::open(d).contains(&asked))).then_some(asked)
     }
@@ -34,14 +34,14 @@ impl Desk {
                 s.mark(Kind::Points, point, Marking::Only, &[]);
             }
         });
-        self.show_place.set(Some((question.place, 60.0)));
-        self.question.set(Some(question));
+        self.photo_view.show_place.set(Some((question.place, 60.0)));
+        self.measuring.question.set(Some(question));
     }
 
     /// Asks the question after the present one, round to the first.
     pub fn next_question(self) {
         let all = untrack(|| self.questions());
-        let now = self.question.get_untracked();
+        let now = self.measuring.question.get_untracked();
         let at = now.and_then(|now| all.iter().position(|q| *q == now)).map_or(0, |at| at + 1);
         match all.get(at).or_else(|| all.first()) {
             Some(question) => self.ask_question(question.clone()),
@@ -64,7 +64,7 @@ impl Desk {
         }
     }
 
-    fn answer(self, question: &Question, answer: impl FnOnce(&mut super::document::Document, &Question)) {
+    fn answer(self, question: &Question, answer: impl FnOnce(&mut crate::document::Document, &Question)) {
         let before = untrack(|| self.questions());
         let at = before.iter().position(|q| q == question).unwrap_or(0);
         self.change(Change::QuestionAnswered { photo: question.photo.clone() }, |d| answer(d, question));
@@ -74,7 +74,7 @@ impl Desk {
         match next.cloned() {
             Some(next) => self.ask_question(next),
             None => {
-                self.question.set(None);
+                self.measuring.question.set(None);
                 self.tell_here(|| text::no_questions().to_owned());
             }
         }

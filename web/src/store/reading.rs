@@ -7,13 +7,13 @@ use std::rc::Rc;
 use serde::de::IgnoredAny;
 use sightline_protocol::from_text;
 
-use super::calls::{Ids, Keys, Opened};
-use super::document::Document;
-use super::history::History;
-use super::kept::{Book, KeptFile, Note, State, replay};
+use super::calls::{Ids, Opened, PhotoKeys};
+use super::journal::{Book, JournalState, KeptFile, Note, replay};
 use crate::browser::file::Blob;
 use crate::browser::picture::Picture;
 use crate::browser::storage::{Extra, Fault, Storage};
+use crate::document::Document;
+use crate::document::history::History;
 
 pub(super) fn data_fault(detail: String) -> Fault {
     Fault { name: "DataError".into(), detail }
@@ -27,7 +27,11 @@ pub(super) async fn read_parts(storage: &Storage, numbers: Vec<u64>, into: &mut 
     Ok(())
 }
 
-pub(super) async fn read_document(storage: &Storage, book: &RefCell<Book>, state: &State) -> Result<Document, Fault> {
+pub(super) async fn read_document(
+    storage: &Storage,
+    book: &RefCell<Book>,
+    state: &JournalState,
+) -> Result<Document, Fault> {
     let mut texts = Texts::new();
     loop {
         let wanted = book.borrow().wanted(state, &texts).map_err(data_fault)?;
@@ -40,24 +44,25 @@ pub(super) async fn read_document(storage: &Storage, book: &RefCell<Book>, state
 
 pub(super) type ReadFile = (KeptFile, Option<Blob>, Option<Picture>);
 
-/// A project as it was read.
-pub(super) struct Reading {
+/// A project read from its journal.
+pub(super) struct ReadProject {
     pub(super) document: Document,
     pub(super) history: History,
     pub(super) book: Rc<RefCell<Book>>,
     /// States of the history that are still in the storage, by their serials.
-    pub(super) stored: HashMap<u64, State>,
+    pub(super) stored: HashMap<u64, JournalState>,
     pub(super) files: BTreeMap<String, ReadFile>,
     /// Newer states that could not be read.
     pub(super) lost: usize,
 }
 
-impl Reading {
+impl ReadProject {
     /// Out of a whole journal.
     pub(super) async fn whole(storage: &Storage, opened: &Opened) -> Result<Self, Fault> {
         let mut replayed = replay(&opened.notes).map_err(data_fault)?;
         let state = replayed.present.clone().ok_or_else(|| data_fault("no state".into()))?;
-        let changes = |stack: &[(super::document::Change, State)]| stack.iter().map(|(c, _)| c.clone()).collect();
+        let changes =
+            |stack: &[(crate::document::Change, JournalState)]| stack.iter().map(|(c, _)| c.clone()).collect();
         let history = History::stored(changes(&replayed.past), changes(&replayed.future));
         let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
         let mut document = read_document(storage, &book, &state).await?;
@@ -75,7 +80,7 @@ impl Reading {
 
 /// Out of a journal in which something is lost: the newest state of which every part can be read, in a book that has nothing written yet. What
 /// could be undone was counted from what is lost, and is not taken.
-pub(super) async fn rescued(storage: &Storage, opened: &Opened) -> Result<Reading, Fault> {
+pub(super) async fn rescued(storage: &Storage, opened: &Opened) -> Result<ReadProject, Fault> {
     let notes = opened.notes.iter().map(|note| from_text::<Note>(note)).collect::<Result<Vec<_>, _>>();
     let notes = notes.map_err(data_fault)?;
     let numbers = notes.iter().rev().filter_map(|note| note.files);
@@ -88,7 +93,7 @@ pub(super) async fn rescued(storage: &Storage, opened: &Opened) -> Result<Readin
     }
     for (lost, state) in notes.iter().rev().filter_map(|note| note.present.as_ref()).enumerate() {
         if let Ok(document) = read_document(storage, &RefCell::default(), state).await {
-            return Ok(Reading {
+            return Ok(ReadProject {
                 document,
                 history: History::default(),
                 book: Rc::default(),
@@ -112,7 +117,7 @@ pub(super) async fn read_files(
     let text = texts.remove(&number).unwrap_or_default();
     let files = book.borrow_mut().files(number, &text).map_err(data_fault)?;
     let keys = files.values().map(|file| file.key.clone()).collect::<Vec<_>>();
-    let (_, blobs) = storage.call::<IgnoredAny>("photos", &Keys { keys: &keys }, Vec::new()).await?;
+    let (_, blobs) = storage.call::<IgnoredAny>("photos", &PhotoKeys { keys: &keys }, Vec::new()).await?;
     let mut blobs = blobs.into_iter();
     let mut all = BTreeMap::new();
     for (photo, file) in files {

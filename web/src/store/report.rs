@@ -6,25 +6,25 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::comparison::Comparison;
 use sightline::project::{LengthLimit, Project, ReportLanguage, ReportSettings};
-use sightline::report::plots::Plot;
 use sightline_protocol::{CompareResults, Export, MakePlots, MakeReport, ReportMade};
+use sightline_report::plots::Plot;
 
-use super::document::Change;
-use super::lasting::Stop;
-use super::pool::Outcome;
+use super::background::Stop;
+use super::pool::TaskOutcome;
 use super::saving::file_stem;
 use super::{Desk, JobKind, Until};
 use crate::browser::file::{self, NamedFile};
 use crate::browser::page;
+use crate::document::Change;
 use crate::edit::report::{self, LogoFault};
 use crate::format;
-use crate::i18n::lasting as words;
+use crate::i18n::background as words;
 use crate::i18n::{errors, speech, text};
 
 /// The report as it is shown.
 #[derive(Clone, Copy, Default)]
 pub struct Reports {
-    /// What was made last.
+    /// The last result.
     pub made: RwSignal<Option<ReportMade>>,
     /// The plots of the present result.
     pub plots: RwSignal<Vec<Plot>>,
@@ -66,17 +66,17 @@ impl Desk {
         self.reports.asked.set(serial);
         self.reports.being_made.set(task.is_some());
         let Some(task) = task else { return self.reports.made.set(None) };
-        let on_outcome = move |outcome: Outcome<MakeReport>| {
+        let on_outcome = move |outcome: TaskOutcome<MakeReport>| {
             if self.reports.asked.get_untracked() != serial {
                 return;
             }
             self.reports.being_made.set(false);
             match outcome {
-                Outcome::Done(made, _) => {
+                TaskOutcome::Done(made, _) => {
                     self.reports.failure.set(None);
                     self.reports.made.set(Some(made));
                 }
-                Outcome::Failed(failure) => {
+                TaskOutcome::Failed(failure) => {
                     self.reports.made.set(None);
                     self.reports.failure.set(Some(match &failure {
                         super::pool::Failure::Refused(error) => errors::sentence(error),
@@ -85,7 +85,7 @@ impl Desk {
                         }
                     }));
                 }
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
         let stopped = move || {
@@ -111,14 +111,14 @@ impl Desk {
         let serial = self.reports.asked_plots.get_untracked() + 1;
         self.reports.asked_plots.set(serial);
         let Some(task) = task else { return self.reports.plots.set(Vec::new()) };
-        let on_outcome = move |outcome: Outcome<MakePlots>| {
+        let on_outcome = move |outcome: TaskOutcome<MakePlots>| {
             if self.reports.asked_plots.get_untracked() != serial {
                 return;
             }
             match outcome {
-                Outcome::Done(plots, _) => self.reports.plots.set(plots),
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Done(plots, _) => self.reports.plots.set(plots),
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
         self.ask(Stop(words::plots, || ()), task, Vec::new(), on_outcome);
@@ -137,14 +137,14 @@ impl Desk {
             after: (*present.input).clone(),
             later: present.adjustment.clone(),
         };
-        let on_outcome = move |outcome: Outcome<CompareResults>| {
+        let on_outcome = move |outcome: TaskOutcome<CompareResults>| {
             if self.reports.asked_comparison.get_untracked() != serial {
                 return;
             }
             match outcome {
-                Outcome::Done(found, _) => self.reports.compared.set(Some(Arc::new(found))),
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Done(found, _) => self.reports.compared.set(Some(Arc::new(found))),
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
         self.ask(Stop(words::comparison, || ()), task, Vec::new(), on_outcome);
@@ -166,22 +166,22 @@ impl Desk {
         });
         let name = format!("{}-report.html", file_stem(&task.project.name));
         let batch = self.start_job(JobKind::Reporting, 1, || {});
-        let on_outcome = move |outcome: Outcome<Export>| {
+        let on_outcome = move |outcome: TaskOutcome<Export>| {
             self.end_job();
             match outcome {
-                Outcome::Done(_, bytes) => {
+                TaskOutcome::Done(_, bytes) => {
                     if let Some(bytes) = bytes.first() {
                         self.hand_over(&name, "text/html", bytes);
                     }
                 }
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
-    /// Changes what the report says besides its numbers.
+    /// Changes the settings of the report.
     pub fn edit_report(self, edit: impl FnOnce(&mut ReportSettings)) {
         self.change(Change::ReportEdited, |document| report::change(document, edit));
     }

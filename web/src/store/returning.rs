@@ -4,10 +4,10 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 
 use super::calls::Plain;
-use super::document::Document;
 use super::shelf::Listed;
 use super::{Desk, Step, experiments};
 use crate::browser::page;
+use crate::document::Document;
 use crate::edit::naming;
 use crate::i18n::first;
 
@@ -20,7 +20,7 @@ impl Desk {
         self.remember_monitoring();
         Effect::new(move || {
             // A project has its key from the time when it is written first.
-            self.kept.track();
+            self.persistence.kept.track();
             let step = self.step.get();
             let Some(id) = self.open_id() else { return };
             page::set_visit(OPEN, &id);
@@ -42,13 +42,13 @@ impl Desk {
         let step = Step::from_name(&page::hash());
         let expects =
             page::visit(OPEN).is_some() && step != Step::Start && experiments::from_hash(&page::hash()).is_none();
-        self.returning.set(expects.then_some(step));
+        self.persistence.returning.set(expects.then_some(step));
         expects
     }
 
     /// Opens what was open before the page was loaded again, at the same step.
     pub(super) fn return_to_open(self) {
-        let Some(step) = self.returning.get_untracked() else { return };
+        let Some(step) = self.persistence.returning.get_untracked() else { return };
         let (Some(storage), Some(id)) = (self.storage(), page::visit(OPEN)) else { return self.return_nowhere() };
         spawn_local(async move {
             // What was deleted meanwhile is not asked for.
@@ -56,7 +56,7 @@ impl Desk {
             let there = listed.is_ok_and(|(all, _)| all.iter().any(|one| one.id == id && !one.deleted));
             let empty = self.document.with_untracked(Document::is_empty);
             if there && empty && self.open_call("open", &id).await {
-                self.returning.set(None);
+                self.persistence.returning.set(None);
                 if step == Step::Monitoring {
                     self.recall_epochs();
                 }
@@ -69,7 +69,7 @@ impl Desk {
 
     /// There is nothing to return to.
     pub(super) fn return_nowhere(self) {
-        if self.returning.try_update(Option::take).flatten().is_some() {
+        if self.persistence.returning.try_update(Option::take).flatten().is_some() {
             page::forget_visit(OPEN);
             if self.document.with_untracked(Document::is_empty) && !self.follow_hash_at_start() {
                 self.go(Step::Start);
@@ -96,16 +96,16 @@ impl Desk {
     pub(super) fn begin_with(self, document: Document) {
         self.begin(document);
         self.forget_waiting();
-        self.files.set(Default::default());
-        self.others.set_value(Vec::new());
-        self.iterations.set(Vec::new());
+        self.photos.files.set(Default::default());
+        self.photos.others.set_value(Vec::new());
+        self.processing.iterations.set(Vec::new());
         self.selection.set(Default::default());
     }
 
     /// A name that no other project on this computer has.
     pub(super) fn name_apart(self, name: String) -> String {
         let open = self.open_id();
-        let taken = self.shelf.with_untracked(|all| {
+        let taken = self.shelf.projects.with_untracked(|all| {
             let others = all.iter().flatten().filter(|one| Some(&one.id) != open.as_ref());
             others.map(|one| one.card.name.clone()).collect::<Vec<_>>()
         });
@@ -114,14 +114,14 @@ impl Desk {
 
     /// Ends every mode: clicks mean what they mean at first.
     pub fn end_modes(self) {
-        if self.placing.get_untracked() {
-            self.placing.set(false);
+        if self.measuring.placing.get_untracked() {
+            self.measuring.placing.set(false);
         }
-        if self.series.with_untracked(Option::is_some) {
-            self.series.set(None);
+        if self.measuring.series.with_untracked(Option::is_some) {
+            self.measuring.series.set(None);
         }
-        if self.menu.get_untracked().is_some() {
-            self.menu.set(None);
+        if self.window.menu.get_untracked().is_some() {
+            self.window.menu.set(None);
         }
     }
 }

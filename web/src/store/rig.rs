@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::Desk;
-use super::document::Change;
+use crate::document::Change;
 use crate::edit::rig::{self, Refused};
 use crate::format;
 use crate::i18n::mounted as words;

@@ -11,16 +11,17 @@ use sightline::project::Project;
 use sightline_protocol::{Opened, Sample, SamplePhoto, SamplePhotoMade};
 
 use super::intake::SMALL_SIDE;
-use super::pool::Outcome;
+use super::pool::TaskOutcome;
 use super::{Desk, JobKind, PhotoFile, Selection, Step};
 use crate::browser::file::Blob;
+use crate::browser::page;
 use crate::browser::picture::Picture;
 use crate::browser::worker::Bytes;
 use crate::edit::sample;
 use crate::i18n::text;
 use crate::parts::part;
 
-type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
+type RenderedPhotos = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
 
 part! { steps, fn sample_planned(desk: Desk) -> (), {
     desk.plan_sample();
@@ -35,33 +36,33 @@ impl Desk {
     /// Has the sample's project made.
     fn plan_sample(self) {
         let batch = self.start_job(JobKind::Sample, 1, || {});
-        let on_outcome = move |outcome: Outcome<Sample>| match outcome {
-            Outcome::Done(project, _) => {
+        let on_outcome = move |outcome: TaskOutcome<Sample>| match outcome {
+            TaskOutcome::Done(project, _) => {
                 self.end_job();
                 self.make_sample(Rc::new(project));
             }
-            Outcome::Failed(failure) => {
+            TaskOutcome::Failed(failure) => {
                 self.end_job();
                 self.tell_failure(failure);
             }
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit(batch, Sample {}, Vec::new(), on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, Sample {}, Vec::new(), on_outcome));
     }
 
     /// Has the sample's photos rendered and measured.
     fn make_sample(self, project: Rc<Project>) {
-        let made = Made::default();
+        let made = RenderedPhotos::default();
         let (keep, kept) = (made.clone(), project.clone());
         let names = project.photos.iter().map(|photo| photo.file.clone()).collect::<Vec<_>>();
         let pixels = project.cameras.iter().map(|c| f64::from(c.width) * f64::from(c.height)).fold(0.0, f64::max);
-        self.pool.with_value(|pool| pool.expect_pixels(pixels));
-        let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&kept, &keep));
+        self.tasks.pool.with_value(|pool| pool.expect_pixels(pixels));
+        let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&kept, &keep, |_| ()));
         for name in names {
             let (made, project) = (made.clone(), project.clone());
             let task = SamplePhoto { name: name.clone(), max_side: SMALL_SIDE };
-            let on_outcome = move |outcome: Outcome<SamplePhoto>| match outcome {
-                Outcome::Done(SamplePhotoMade { opened, detection }, bytes) => {
+            let on_outcome = move |outcome: TaskOutcome<SamplePhoto>| match outcome {
+                TaskOutcome::Done(SamplePhotoMade { opened, detection }, bytes) => {
                     let (made, project, name) = (made.clone(), project.clone(), name.clone());
                     spawn_local(async move {
                         if let Some(file) = photo_file(name.clone(), opened, bytes).await {
@@ -69,23 +70,22 @@ impl Desk {
                         }
                         if self.step_job(batch) {
                             self.end_job();
-                            self.put_sample(&project, &made);
-                            self.match_then_adjust();
+                            self.put_sample(&project, &made, Self::match_then_adjust);
                         }
                     });
                 }
-                Outcome::Failed(failure) => {
+                TaskOutcome::Failed(failure) => {
                     self.end_job();
                     self.tell_failure(failure);
                 }
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Progress(nothing) => match nothing {},
             };
-            self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+            self.tasks.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
         }
     }
 
-    /// Puts the sample on the desk with the photos that are made.
-    fn put_sample(self, project: &Project, made: &Made) {
+    /// Puts the sample on the desk with the photos that are made, then goes on; each in a task of the page of its own, since each draws much.
+    fn put_sample(self, project: &Project, made: &RenderedPhotos, then: fn(Self)) {
         let made = made.take();
         let of = |file: &str| made.get(file).map(|(file, detection)| (file.sha256.clone(), detection.clone()));
         let document = sample::document(project, text::sample_name(), of);
@@ -94,9 +94,14 @@ impl Desk {
         let files = photos.iter().filter_map(|p| Some((p.id.clone(), made.get(&p.file)?.0.clone()))).collect();
         self.begin(document);
         self.forget_waiting();
-        self.files.set(files);
+        self.photos.files.set(files);
         self.selection.set(Selection { photo: first, ..Selection::default() });
-        self.go(Step::Targets);
+        spawn_local(async move {
+            page::breathe().await;
+            self.go(Step::Targets);
+            page::breathe().await;
+            then(self);
+        });
     }
 }
 

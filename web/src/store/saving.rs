@@ -1,6 +1,6 @@
 //! Project files: saving, opening, exporting, and the sample project.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -9,14 +9,14 @@ use sightline::detection::Detection;
 use sightline::project::Project;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
-use super::document::{self, Document};
-use super::lasting::Stop;
-use super::pool::{Failure, Outcome};
+use super::background::Stop;
+use super::pool::{Failure, TaskOutcome};
 use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::worker::Bytes;
-use crate::i18n::lasting as words;
+use crate::document::{self, Document};
+use crate::i18n::background as words;
 use crate::i18n::{Text, errors, text};
 
 /// Ending of project files.
@@ -52,7 +52,7 @@ impl Desk {
         let mut content = content(&document);
         if with_photos {
             name_apart(&mut content.project);
-            self.files.with_untracked(|all| {
+            self.photos.files.with_untracked(|all| {
                 for photo in &content.project.photos {
                     if let Some(file) = all.get(&photo.id) {
                         names.push(photo.file.clone());
@@ -64,14 +64,14 @@ impl Desk {
         let task = Pack { content, names };
         let photos = files.clone();
         let batch = self.start_job(JobKind::Saving, 1, || {});
-        let on_outcome = move |outcome: Outcome<Pack>| {
+        let on_outcome = move |outcome: TaskOutcome<Pack>| {
             self.end_job();
             match outcome {
-                Outcome::Done((), bytes) => {
+                TaskOutcome::Done((), bytes) => {
                     let name = format!("{}.{EXTENSION}", file_stem(&document.project.name));
                     match file::download_around(&name, "application/zip", &bytes, &photos) {
                         Ok(()) => {
-                            self.saved.set(Some((page::clock(), document.clone())));
+                            self.persistence.saved.set(Some((page::clock(), document.clone())));
                             if !photos.is_empty() {
                                 self.tell(|| text::photos_carry_places().to_owned());
                             }
@@ -80,11 +80,11 @@ impl Desk {
                         Err(detail) => self.say(true, Until::NextWork, move || text::cannot_save(&detail)),
                     }
                 }
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
     }
 
     /// Tells why a task gave nothing.
@@ -95,7 +95,7 @@ impl Desk {
         }
     }
 
-    /// Does what puts another project in the place of this one; where something of it is not saved, it asks first.
+    /// Replaces the open project by another; asks first if there are unsaved changes.
     pub(super) fn over_unsaved(self, then: impl Fn() + 'static) {
         // What is kept is not lost by opening another.
         if self.keeps() || !untrack(|| self.unsaved_work()) {
@@ -110,7 +110,7 @@ impl Desk {
         let text =
             Rc::new(move || if name.is_empty() { text::unsaved_here().to_owned() } else { text::unsaved_in(&name) });
         let choices = vec![(text::save_first as Text, save), (text::go_on_unsaved as Text, then)];
-        self.asking.set(Some(Asking { text, choices }));
+        self.messages.asking.set(Some(Asking { text, choices }));
     }
 
     /// Opens a project file; the one that is open can be got back by undoing.
@@ -125,10 +125,10 @@ impl Desk {
     fn unpack(self, file: NamedFile) {
         let batch = self.start_job(JobKind::OpeningProject, 1, || {});
         let (name, packed) = (file.name.clone(), file.content.clone());
-        let on_outcome = move |outcome: Outcome<Unpack>| {
+        let on_outcome = move |outcome: TaskOutcome<Unpack>| {
             self.end_job();
             match outcome {
-                Outcome::Done(Unpacked { content, names, places, damaged }, bytes) => {
+                TaskOutcome::Done(Unpacked { content, names, places, damaged }, bytes) => {
                     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
                     // Photos stay in the file until they are copied.
                     let mut unpacked = bytes.iter();
@@ -141,18 +141,18 @@ impl Desk {
                     let named = named.filter_map(|(name, content)| Some(NamedFile { name, content: content? }));
                     self.take_content(content, &stem, named.collect());
                     let document = self.document.get_untracked();
-                    self.saved.set(Some((page::clock(), document)));
+                    self.persistence.saved.set(Some((page::clock(), document)));
                     if !damaged.is_empty() {
                         let told = move || damaged.iter().map(errors::sentence).collect::<Vec<_>>().join(" ");
                         self.warn(told);
                     }
                 }
-                Outcome::Failed(Failure::Refused(error)) => self.warn_error(error.in_file(&name)),
-                Outcome::Failed(failure) => self.tell_failure(failure),
-                Outcome::Progress(nothing) => match nothing {},
+                TaskOutcome::Failed(Failure::Refused(error)) => self.warn_error(error.in_file(&name)),
+                TaskOutcome::Failed(failure) => self.tell_failure(failure),
+                TaskOutcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, Unpack {}, vec![file.content], on_outcome));
+        self.tasks.pool.with_value(|pool| pool.submit(batch, Unpack {}, vec![file.content], on_outcome));
     }
 
     /// Puts a document on the desk, with the photos that came with it.
@@ -166,18 +166,18 @@ impl Desk {
         let options = content.adjustment.as_ref().map(|adjustment| adjustment.options.clone()).unwrap_or_default();
         let result = content.adjustment.map(|adjustment| {
             let (input, oriented) = (project.clone(), project.clone());
-            Arc::new(document::Outcome { input, oriented, adjustment })
+            Arc::new(document::AdjustmentResult { input, oriented, adjustment })
         });
         let detections = content.targets.into_iter().map(|(photo, d)| (photo, Arc::new(d))).collect::<BTreeMap<_, _>>();
         let first = project.photos.first().map(|p| p.id.clone());
         self.begin(Document { project, detections: Arc::new(detections), options, result, ..Document::default() });
-        self.iterations.set(
+        self.processing.iterations.set(
             self.document
                 .with_untracked(|d| d.result.as_ref().map(|r| r.adjustment.iterations.clone()).unwrap_or_default()),
         );
         self.forget_waiting();
-        self.files.set(BTreeMap::new());
-        self.others.set_value(Vec::new());
+        self.photos.files.set(BTreeMap::new());
+        self.photos.others.set_value(Vec::new());
         self.selection.set(super::Selection { photo: first, ..Default::default() });
         self.go(if adjusted { Step::Results } else { Step::Photos });
         if !photos.is_empty() {
@@ -185,15 +185,17 @@ impl Desk {
         }
     }
 
-    /// What belonged to the project before is not asked any more, and its pictures are let go.
+    /// Cancels tasks of the previous project and releases its pictures.
     pub(super) fn forget_waiting(self) {
         self.end_modes();
-        self.pictures.set(Vec::new());
-        self.notes.set(Vec::new());
-        self.adjust_failure.set(None);
-        self.marks.set(None);
-        self.pasted.set(None);
-        self.problems.set(Vec::new());
+        self.photos.pictures.set(Vec::new());
+        self.processing.notes.set(Vec::new());
+        self.processing.adjust_failure.set(None);
+        self.intake.marks.set(None);
+        self.intake.pasted.set(None);
+        self.intake.next_lists.set(VecDeque::new());
+        self.intake.distances.set(None);
+        self.intake.problems.set(Vec::new());
     }
 
     /// Hands over a file of the engine's making.
@@ -204,16 +206,16 @@ impl Desk {
             adjustment: d.current().map(|result| result.adjustment.clone()),
         });
         let stem = file_stem(&task.project.name);
-        let on_outcome = move |outcome: Outcome<Export>| match outcome {
-            Outcome::Done(names, bytes) => {
+        let on_outcome = move |outcome: TaskOutcome<Export>| match outcome {
+            TaskOutcome::Done(names, bytes) => {
                 for (name, bytes) in names.iter().zip(bytes) {
                     let table = name.ends_with(".csv") || name.ends_with(".tsv");
                     let kind = if table { "text/csv" } else { "application/octet-stream" };
                     self.hand_over(&format!("{stem}-{name}"), kind, &bytes);
                 }
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
         self.ask(Stop(words::file, || ()), task, Vec::new(), on_outcome);
     }
@@ -225,9 +227,9 @@ impl Desk {
         }
     }
 
-    /// Takes the document for one that nobody has worked on.
+    /// Marks the document as not changed by the user.
     pub(super) fn is_pristine(self) {
-        self.pristine.set(Some(self.document.get_untracked()));
+        self.persistence.pristine.set(Some(self.document.get_untracked()));
     }
 
     /// Whether someone's work would be lost: what can be computed again does not count.
@@ -236,8 +238,8 @@ impl Desk {
             Arc::ptr_eq(&d.project, &other.project) && Arc::ptr_eq(&d.detections, &other.detections)
         };
         self.document.with(|d| {
-            let saved = self.saved.with(|s| s.as_ref().is_some_and(|(_, saved)| same(d, saved)));
-            !d.is_empty() && !saved && !self.pristine.with(|p| p.as_ref().is_some_and(|p| same(d, p)))
+            let saved = self.persistence.saved.with(|s| s.as_ref().is_some_and(|(_, saved)| same(d, saved)));
+            !d.is_empty() && !saved && !self.persistence.pristine.with(|p| p.as_ref().is_some_and(|p| same(d, p)))
         })
     }
 
@@ -246,7 +248,9 @@ impl Desk {
         if self.keeps() {
             return self.unwritten();
         }
-        self.document.with(|d| !d.is_empty() && self.saved.with(|s| s.as_ref().is_none_or(|(_, saved)| !d.same(saved))))
+        self.document.with(|d| {
+            !d.is_empty() && self.persistence.saved.with(|s| s.as_ref().is_none_or(|(_, saved)| !d.same(saved)))
+        })
     }
 
     pub fn rename_project(self, name: &str) {
@@ -262,7 +266,7 @@ pub(super) fn rename(document: &mut Document, name: String) {
     document.project_mut().name = name;
     if let Some(result) = current {
         let input = document.project.clone();
-        document.result = Some(Arc::new(document::Outcome { input, ..(*result).clone() }));
+        document.result = Some(Arc::new(document::AdjustmentResult { input, ..(*result).clone() }));
     }
 }
 

@@ -1,27 +1,16 @@
 //! The selection, shared by tables, photos, plots and the 3-D view.
 //!
-//! One thing of each kind is looked at (`photo`, `point`, `target`, `spot`); any number may be marked besides, for what is
+//! One thing of each kind is examined (`photo`, `point`, `target`, `spot`); any number may be marked besides, for what is
 //! done with many at once. Choosing a thing in a table marks it alone; Control adds or takes away, Shift marks a range.
 
+use crate::document::keys::{Kind, observation_key, observation_of_key};
 use std::collections::{BTreeMap, BTreeSet};
 
 use leptos::prelude::*;
 use sightline::project::Observation;
 
 use super::Desk;
-use super::document::Document;
-
-/// What can be marked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Kind {
-    Photos,
-    Cameras,
-    Points,
-    Observations,
-    Distances,
-    /// By photo and number.
-    Targets,
-}
+use crate::document::Document;
 
 /// How a row is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,14 +24,14 @@ pub enum Marking {
     Range,
 }
 
-/// What is chosen, the same in photo, table and plot.
+/// The selection, shared by photo, table and plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
     pub photo: Option<String>,
     pub point: Option<String>,
     /// Place in the photo's list of targets.
     pub target: Option<usize>,
-    /// A place in the photo that is no target, waiting for a name.
+    /// A position in the photo without a target, waiting for a name.
     pub spot: Option<[f64; 2]>,
     /// Marked for what is done with many at once: identifiers, and keys of observations and distances.
     pub(super) marked: BTreeMap<Kind, BTreeSet<String>>,
@@ -50,21 +39,8 @@ pub struct Selection {
     pub(super) anchor: Option<(Kind, String)>,
 }
 
-/// Between photo and point in the key of an observation.
-const BETWEEN: char = '\u{1f}';
-
-/// Key of an observation.
-pub fn observation_key(photo: &str, point: &str) -> String {
-    format!("{photo}{BETWEEN}{point}")
-}
-
-/// Photo and point of an observation's key.
-pub fn observation_of_key(key: &str) -> Option<(&str, &str)> {
-    key.split_once(BETWEEN)
-}
-
 impl Selection {
-    /// What is marked of a kind.
+    /// Selected rows of a kind.
     pub fn marked(&self, kind: Kind) -> Option<&BTreeSet<String>> {
         self.marked.get(&kind).filter(|keys| !keys.is_empty())
     }
@@ -128,7 +104,7 @@ fn exists(document: &Document, kind: Kind, key: &str) -> bool {
 }
 
 impl Desk {
-    /// What is marked of a kind and there, in the order of keys.
+    /// Selected and existing rows of a kind, in the order of keys.
     pub fn marked(self, kind: Kind) -> BTreeSet<String> {
         let keys = self.selection.with(|s| s.marked(kind).cloned()).unwrap_or_default();
         if keys.len() < 2 {
@@ -180,7 +156,7 @@ impl Desk {
                 s.photo = Some(observation.photo.clone());
             }
         });
-        self.centre_on.set(place.map(|o| [o.u, o.v]));
+        self.photo_view.centre_on.set(place.map(|o| [o.u, o.v]));
     }
 
     /// Chooses a point in one photo.
@@ -202,7 +178,7 @@ impl Desk {
             let here = |o: &&Observation| o.photo == photo && o.point == point;
             d.project.observations.iter().find(here).map(|o| [o.u, o.v])
         });
-        self.centre_on.set(place);
+        self.photo_view.centre_on.set(place);
     }
 
     /// Shows a target by its number, with the point it is.
@@ -218,10 +194,10 @@ impl Desk {
             s.photo = Some(photo.to_owned());
             (s.target, s.point, s.spot) = (Some(at), point, None);
         });
-        self.centre_on.set(Some(place));
+        self.photo_view.centre_on.set(Some(place));
     }
 
-    /// What a click in the photo means: the target there with the name it has, else an observation that lies on no target.
+    /// Meaning of a click in the photo: the target there with the name it has, else an observation that lies on no target.
     pub fn choose_in_photo(self, photo: &str, target: Option<usize>, point: Option<String>) {
         self.selection.update(|s| {
             if let Some(point) = &point {
@@ -249,7 +225,7 @@ impl Desk {
 
     /// Takes back what is chosen or asked.
     pub fn escape(self) {
-        self.asking.set(None);
+        self.messages.asking.set(None);
         self.end_modes();
         self.selection.update(|s| {
             *s = Selection { photo: s.photo.take(), ..Selection::default() };

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use sightline::project::Project;
 use sightline_protocol::from_text;
 
-use super::calls::{Card, CardOutcome, Of, Plain};
-use super::kept::{Head, OF_PROJECTS};
+use super::calls::{Card, CardOutcome, Plain, ProjectId};
+use super::journal::{Head, OF_PROJECTS};
 use super::{Asking, Desk, Step, Until};
 use crate::browser::file::download_kept_file;
 use crate::browser::page;
@@ -32,6 +32,17 @@ pub struct Shelved {
     pub unreadable: bool,
     /// Whether a damaged journal of it can be downloaded.
     pub damaged: bool,
+}
+
+/// Signals of the list of projects.
+#[derive(Clone, Copy, Default)]
+pub struct Shelf {
+    /// Projects in this browser's storage; `None` until they are read.
+    pub projects: RwSignal<Option<Vec<Shelved>>, LocalStorage>,
+    /// Deleted projects that can be restored.
+    pub bin: RwSignal<Vec<Shelved>, LocalStorage>,
+    /// Key and name of the project that was deleted last, while it can be restored where it was deleted.
+    pub deleted: RwSignal<Option<(String, String)>>,
 }
 
 #[derive(Deserialize)]
@@ -114,12 +125,14 @@ impl Desk {
             }
             let known = page::preference("projects").and_then(|n| n.parse::<usize>().ok()).unwrap_or(0);
             // Not an empty list, which deleting leaves too: a storage in which not even the last visit has left anything.
-            if self.keeper.try_update_value(|keeper| std::mem::take(&mut keeper.fresh)) == Some(true) && known > 0 {
+            if self.persistence.keeper.try_update_value(|keeper| std::mem::take(&mut keeper.fresh)) == Some(true)
+                && known > 0
+            {
                 self.say(true, Until::NextWork, move || text::storage_cleared(known));
             }
             page::set_preference("projects", &all.len().to_string());
-            self.bin.set(deleted);
-            self.shelf.set(Some(all));
+            self.shelf.bin.set(deleted);
+            self.shelf.projects.set(Some(all));
         });
     }
 
@@ -189,7 +202,7 @@ impl Desk {
                         self.put_away();
                         let _ = call(&storage, "close", &Plain {}).await;
                     }
-                    self.deleted.set(Some((id.to_string(), name)));
+                    self.shelf.deleted.set(Some((id.to_string(), name)));
                     page::after(REGRET_MS, move || self.purge(id));
                 }
                 Err(fault) => self.say_refused(fault),
@@ -198,14 +211,14 @@ impl Desk {
         });
     }
 
-    /// Nobody has got it back meanwhile: its room is free again.
+    /// It was not restored meanwhile: its storage is released.
     fn purge(self, id: Rc<str>) {
-        if self.deleted.with_untracked(|d| d.as_ref().is_some_and(|(deleted, _)| **deleted == *id)) {
-            self.deleted.set(None);
+        if self.shelf.deleted.with_untracked(|d| d.as_ref().is_some_and(|(deleted, _)| **deleted == *id)) {
+            self.shelf.deleted.set(None);
         }
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            let _ = call(&storage, "purge", &Of { id: &id }).await;
+            let _ = call(&storage, "purge", &ProjectId { id: &id }).await;
             self.read_shelf();
             self.copy_again();
         });
@@ -213,14 +226,14 @@ impl Desk {
 
     /// Puts the project that was deleted last back into the list.
     pub fn restore_deleted(self) {
-        let Some((id, _)) = self.deleted.get_untracked() else { return };
+        let Some((id, _)) = self.shelf.deleted.get_untracked() else { return };
         self.restore_kept(&id);
     }
 
     /// Puts a deleted project back into the list.
     pub fn restore_kept(self, id: &str) {
         let id = id.to_owned();
-        self.deleted.update(|deleted| {
+        self.shelf.deleted.update(|deleted| {
             deleted.take_if(|(deleted, _)| *deleted == id);
         });
         let Some(storage) = self.storage() else { return };
@@ -241,7 +254,7 @@ impl Desk {
                     if let Err(fault) = call(&storage, "wipe", &Plain {}).await {
                         return self.say_refused(fault);
                     }
-                    self.keeper.update_value(|keeper| keeper.storage = None);
+                    self.persistence.keeper.update_value(|keeper| keeper.storage = None);
                     storage.end();
                 }
                 page::forget_everything().await;
@@ -251,7 +264,7 @@ impl Desk {
             });
         };
         let choices = vec![(text::wipe_now as Text, Rc::new(wipe) as Rc<dyn Fn()>)];
-        self.asking.set(Some(Asking { text: Rc::new(|| text::wipe_question().to_owned()), choices }));
+        self.messages.asking.set(Some(Asking { text: Rc::new(|| text::wipe_question().to_owned()), choices }));
     }
 
     /// Hands over the damaged journals of a project, as they were.
@@ -259,7 +272,7 @@ impl Desk {
         let (id, name) = (id.to_owned(), name.to_owned());
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            match storage.call::<IgnoredAny>("aside", &Of { id: &id }, Vec::new()).await {
+            match storage.call::<IgnoredAny>("aside", &ProjectId { id: &id }, Vec::new()).await {
                 Ok((_, journals)) => {
                     for (i, journal) in journals.into_iter().filter_map(Extra::blob).enumerate() {
                         let name = if name.is_empty() { "sightline" } else { &name };
@@ -275,7 +288,7 @@ impl Desk {
     }
 }
 
-/// What the list shows of a project without a card that can be read: what its journal says; or the name of what is wrong with that.
+/// Entry in the list for a project without a readable card: from its journal, or the error of the journal.
 async fn card_of_journal(storage: &Storage, id: &str) -> Result<Card, String> {
     let peek = async |kind: &str| storage.call::<Peeked>("peek", &Peeking { id, kind }, Vec::new()).await;
     let peeked = match peek(OF_PROJECTS).await {

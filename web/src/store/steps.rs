@@ -2,9 +2,9 @@
 
 use leptos::prelude::*;
 
-use super::document::Document;
 use super::{Desk, experiments};
 use crate::browser::page;
+use crate::document::Document;
 
 /// The steps of the path, and the page before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,7 +45,7 @@ impl Step {
     pub const ROW: [Self; 7] =
         [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
 
-    /// What is done before there are photos.
+    /// Tasks before there are photos.
     pub const BEFORE: [Self; 3] = [Self::Plan, Self::Print, Self::Equipment];
 
     pub fn name(self) -> &'static str {
@@ -102,9 +102,12 @@ impl Desk {
     pub(super) fn leave_for(self, step: Step) {
         let now = self.step.get_untracked();
         if now != step {
+            if now == Step::Experiments {
+                self.stop_what_runs_by_itself();
+            }
             self.end_modes();
             if now == Step::Start || Step::ROW.contains(&now) {
-                self.came_from.set(now);
+                self.window.came_from.set(now);
             }
         }
     }
@@ -116,7 +119,7 @@ impl Desk {
         }
         self.follow_lesson_in_address();
         let step = Step::from_name(&page::hash());
-        let coming = self.coming.with_untracked(|coming| !coming.is_empty());
+        let coming = self.intake.coming.with_untracked(|coming| !coming.is_empty());
         let empty = self.document.with_untracked(Document::is_empty) && !coming;
         let allowed = if empty && !step.is_before() { Step::Start } else { step };
         if self.step.get_untracked() != allowed {

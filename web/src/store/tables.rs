@@ -6,16 +6,18 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::adjustment::Criteria;
-use sightline::exchange;
 use sightline::project::Role;
+use sightline_exchange as exchange;
 
-use super::document::{Change, Document};
-use super::selection::{Kind, observation_of_key};
 use super::{Desk, Selection};
-use crate::edit::cells::{self, Cell, Refusal};
-use crate::edit::many::{self, Keys, RenameFault};
+use crate::document::Table;
+use crate::document::keys::Kind;
+use crate::document::keys::observation_of_key;
+use crate::document::{Change, Document};
+use crate::edit::cells::{self, CellEdit, Refusal};
+use crate::edit::many::{self, RenameFault, RowKeys};
 use crate::edit::natural;
-use crate::edit::sheet::{Col, Sheet, Table};
+use crate::edit::sheet::{Col, Sheet};
 use crate::format;
 use crate::i18n::{errors, text};
 
@@ -47,7 +49,7 @@ impl Condition {
 /// A cell that would change, as the preview shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned {
-    pub cell: Cell,
+    pub cell: CellEdit,
     pub before: String,
     pub refusal: Option<Refusal>,
 }
@@ -60,7 +62,7 @@ pub struct Plan {
     pub lost: usize,
 }
 
-/// What the tables show.
+/// Contents of the tables.
 #[derive(Clone, Copy, Default)]
 pub struct Tables {
     pub table: RwSignal<Table>,
@@ -72,7 +74,7 @@ pub struct Tables {
     pub plan: RwSignal<Option<Plan>>,
 }
 
-/// Most pasted cells.
+/// Maximum number of pasted cells.
 const MOST: usize = 200_000;
 
 impl Desk {
@@ -86,7 +88,7 @@ impl Desk {
         self.tables.plan.set(None);
     }
 
-    /// What the result is judged by; before there is one, what any would be.
+    /// Criteria of the result; the default ones before there is a result.
     pub fn criteria(self) -> Criteria {
         self.document.with(|d| d.current().map_or_else(Criteria::default, |r| r.adjustment.criteria))
     }
@@ -96,7 +98,7 @@ impl Desk {
         let (condition, critical, kind) = (self.tables.condition.get(), self.criteria().w, sheet.table.kind());
         let marked = match condition {
             Condition::Marked => self.selection.with(|s| s.marked(kind).cloned()).unwrap_or_default(),
-            _ => Keys::new(),
+            _ => RowKeys::new(),
         };
         let meets = |row: usize| match condition {
             Condition::All => true,
@@ -113,8 +115,8 @@ impl Desk {
         rows
     }
 
-    /// Takes what was typed into a cell, or says why not. Whether it stands there now.
-    pub fn set_cell(self, table: Table, cell: Cell) -> bool {
+    /// Writes the typed text into a cell, or reports why not. Returns whether it was written.
+    pub fn set_cell(self, table: Table, cell: CellEdit) -> bool {
         let (after, taken) = self.document.with_untracked(|d| cells::tried(d, table, std::slice::from_ref(&cell)));
         if let Some(Err(refusal)) = taken.into_iter().next() {
             self.warn_here(move || refusal_words(&refusal, &cell.typed));
@@ -135,13 +137,13 @@ impl Desk {
         self.change(Change::CellsEdited { table, cells }, |d| *d = after);
     }
 
-    /// Fills the marked cells of a column with what stands in the first of them.
+    /// Fills the selected cells of a column with the content of the first one.
     pub fn fill_down(self, sheet: &Sheet, rows: &[u32], col: Col) {
         let marked = untrack(|| self.marked(sheet.table.kind()));
         let chosen = rows.iter().filter(|row| marked.contains(&sheet.key(**row as usize))).collect::<Vec<_>>();
         let Some((first, rest)) = chosen.split_first() else { return };
         let typed = sheet.value(**first as usize, col).plain();
-        let cell = |row: &&u32| Cell { key: sheet.key(**row as usize), col, typed: typed.clone() };
+        let cell = |row: &&u32| CellEdit { key: sheet.key(**row as usize), col, typed: typed.clone() };
         let cells = rest.iter().map(cell).collect::<Vec<_>>();
         let (after, taken) = self.document.with_untracked(|d| cells::tried(d, sheet.table, &cells));
         let refused = taken.iter().filter_map(|t| t.as_ref().err()).cloned().collect::<Vec<_>>();
@@ -215,7 +217,7 @@ impl Desk {
         let (Some(point), 1) = (points.first(), points.len()) else {
             return self.warn_here(|| text::split_one_point().to_owned());
         };
-        let photos = pairs.iter().map(|(photo, _)| (*photo).to_owned()).collect::<Keys>();
+        let photos = pairs.iter().map(|(photo, _)| (*photo).to_owned()).collect::<RowKeys>();
         let mut after = self.document.get_untracked();
         let Some(name) = many::split(after.project_mut(), point, &photos) else {
             return self.warn_here(|| text::split_leaves_nothing().to_owned());
@@ -241,7 +243,7 @@ impl Desk {
             return false;
         };
         let unit = self.document.with_untracked(|d| d.project.unit.clone());
-        let given = self.pasted.with_untracked(|p| p.as_ref().map_or(Ok(Vec::new()), |p| p.points_in(&unit)));
+        let given = self.intake.pasted.with_untracked(|p| p.as_ref().map_or(Ok(Vec::new()), |p| p.points_in(&unit)));
         let given = match given {
             Ok(given) => given,
             Err(error) => {
@@ -328,14 +330,14 @@ fn rename_in(selection: &mut Selection, from: &str, to: &str) {
     selection.renamed(Kind::Points, from, to);
 }
 
-/// Cells of pasted lines with what stands there now, and how many lines belong to no row.
+/// Cells of pasted lines with their present contents, and the number of lines without a row.
 fn read_cells(
     sheet: &Sheet,
     rows: &[u32],
     (row, col): (usize, usize),
     pasted: &str,
     heading: impl Fn(Col) -> String,
-) -> (Vec<(Cell, String)>, usize) {
+) -> (Vec<(CellEdit, String)>, usize) {
     let columns = sheet.columns();
     let lines = exchange::pasted(pasted);
     let Some(first) = lines.first() else { return (Vec::new(), 0) };
@@ -359,7 +361,7 @@ fn read_cells(
             };
             for (typed, col) in line.fields.iter().zip(&named) {
                 let Some(col) = col.filter(|col| sheet.table.editable(*col) && !names.contains(col)) else { continue };
-                cells.push((Cell { key: sheet.key(row), col, typed: typed.clone() }, value(row, col)));
+                cells.push((CellEdit { key: sheet.key(row), col, typed: typed.clone() }, value(row, col)));
             }
         }
     } else {
@@ -371,7 +373,7 @@ fn read_cells(
             for (typed, col) in line.fields.iter().zip(columns.iter().skip(col)) {
                 if sheet.table.editable(*col) || !typed.is_empty() {
                     let key = sheet.key(row as usize);
-                    cells.push((Cell { key, col: *col, typed: typed.clone() }, value(row as usize, *col)));
+                    cells.push((CellEdit { key, col: *col, typed: typed.clone() }, value(row as usize, *col)));
                 }
             }
         }
@@ -422,7 +424,7 @@ mod tests {
     fn pasted_rows_find_their_places_by_headings_or_from_the_cell_on() {
         let sheet = Sheet::new(Table::Points, &document());
         let heading = |col: Col| format!("{col:?}");
-        let typed = |cells: Vec<(Cell, String)>| {
+        let typed = |cells: Vec<(CellEdit, String)>| {
             cells.into_iter().map(|(cell, _)| (cell.key, cell.col, cell.typed)).collect::<Vec<_>>()
         };
         let (cells, lost) = read_cells(&sheet, &[0, 1, 2], (0, 0), "Role\tId\ncheck\tc\ncontrol\tz", heading);

@@ -1,4 +1,4 @@
-//! The samples of the photo where it is magnified: asked of the workers for what is in sight and a little more.
+//! The samples of the photo where it is magnified: requested from the workers for the visible part with a margin.
 
 use std::sync::Arc;
 
@@ -6,16 +6,16 @@ use leptos::prelude::*;
 use sightline_protocol::{ShowValues, Values};
 
 use super::Desk;
-use super::lasting::Stop;
-use super::pool::Outcome;
-use crate::i18n::lasting as words;
+use super::background::Stop;
+use super::pool::TaskOutcome;
+use crate::i18n::background as words;
 
-/// Rectangles begin and end at multiples of this, so that a small move asks for nothing new.
+/// Rectangles begin and end at multiples of this, so that a small move needs no new request.
 const GRID: u32 = 16;
 
-/// The rectangle asked for last, and its samples when they are there.
+/// The rectangle of pixels that was requested last, with its values once a worker has read them.
 #[derive(Clone, Debug, Default)]
-pub struct Asked {
+pub struct PixelRequest {
     digest: u64,
     place: [u32; 4],
     values: Option<Arc<Values>>,
@@ -24,13 +24,13 @@ pub struct Asked {
 impl Desk {
     /// The samples of a photo where it is seen: left, top, right, bottom in pixels; as soon as they are there.
     pub fn values(self, photo: &str, sight: [f64; 4]) -> Option<Arc<Values>> {
-        let (digest, [width, height]) = self.files.with(|files| files.get(photo).map(|f| (f.digest, f.size)))?;
+        let (digest, [width, height]) = self.photos.files.with(|files| files.get(photo).map(|f| (f.digest, f.size)))?;
         let begin = |at: f64| (at.max(0.0) as u32) / GRID * GRID;
         let end = |at: f64, size: u32| ((at.max(0.0).ceil() as u32).div_ceil(GRID) * GRID).min(size);
         let [left, top] = [begin(sight[0]), begin(sight[1])];
         let [right, bottom] = [end(sight[2], width), end(sight[3], height)];
         let place = [left, top, right.saturating_sub(left), bottom.saturating_sub(top)];
-        let asked = self.values.get();
+        let asked = self.photos.values.get();
         if (asked.digest, asked.place) != (digest, place) {
             self.ask_for_values(photo, digest, place);
             return None;
@@ -39,20 +39,23 @@ impl Desk {
     }
 
     fn ask_for_values(self, photo: &str, digest: u64, place: [u32; 4]) {
-        let Some(file) = self.files.with_untracked(|files| files.get(photo).map(|f| f.content.clone())) else { return };
-        self.values.update_untracked(|asked| *asked = Asked { digest, place, values: None });
-        let on_outcome = move |outcome: Outcome<ShowValues>| match outcome {
-            Outcome::Progress(nothing) => match nothing {},
-            // What cannot be read is told where the photo itself is asked for.
-            Outcome::Failed(_) => {}
-            Outcome::Done(values, _) => {
-                let wanted = self.values.with_untracked(|asked| (asked.digest, asked.place) == (digest, place));
+        let Some(file) = self.photos.files.with_untracked(|files| files.get(photo).map(|f| f.content.clone())) else {
+            return;
+        };
+        self.photos.values.update_untracked(|asked| *asked = PixelRequest { digest, place, values: None });
+        let on_outcome = move |outcome: TaskOutcome<ShowValues>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            // What cannot be read is reported where the photo itself is requested.
+            TaskOutcome::Failed(_) => {}
+            TaskOutcome::Done(values, _) => {
+                let wanted = self.photos.values.with_untracked(|asked| (asked.digest, asked.place) == (digest, place));
                 if wanted {
-                    self.values.update(|asked| asked.values = Some(Arc::new(values)));
+                    self.photos.values.update(|asked| asked.values = Some(Arc::new(values)));
                 }
             }
         };
-        let stop = Stop(words::pixels, move || self.values.update_untracked(|asked| *asked = Asked::default()));
+        let stop =
+            Stop(words::pixels, move || self.photos.values.update_untracked(|asked| *asked = PixelRequest::default()));
         self.ask(stop, ShowValues { digest, place }, vec![file], on_outcome);
     }
 }

@@ -5,29 +5,26 @@ use std::collections::HashSet;
 use leptos::prelude::*;
 use sightline::adjustment::{AdjustedPhoto, NotEstimated, Termination, VarianceComponent, VarianceComponents};
 use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
-pub use sightline::report::names::{parameter_name, parameter_unit};
+pub use sightline_report::names::{parameter_name, parameter_unit};
 
 use super::advice::Advice;
-use super::apart::colour_name;
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
 use super::control::DatumChoice;
 use super::estimated::group_name;
-use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
-use super::icon::{Glyph, Icon};
 use super::left_out::NotUsedList;
 use super::models::{ModelComparison, ModelMenu};
 use super::origin::ProjectOrigin;
 use super::plots::Convergence;
-use super::results::parameter_cells;
-use super::shell::TitleBar;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{comparing, first, inside, text};
-use crate::store::document::Document;
 use crate::store::inside::Network;
 use crate::store::{Desk, Step};
+use crate::view::components::title::TitleBar;
 
-/// What to do first where no target has a name in two photos.
+/// First action if no target has a name in two photos.
 #[component]
 fn NothingToAdjust() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -168,7 +165,6 @@ fn CameraWords(id: String) -> impl IntoView {
                             {move || parameters.get().into_iter().map(|p| view! { <ParameterRow camera=id.get_value() p/> }).collect_view()}
                         </tbody>
                     </table>
-                    <HeldColours camera=id.get_value()/>
                 </details>
             </td>
             <td class="large">{move || format::count(count())}</td>
@@ -209,48 +205,6 @@ fn ParameterRow(camera: String, p: Parameter) -> impl IntoView {
             </td>
             <td class="left wide">{move || with(parameter_unit)}</td>
         </tr>
-    }
-}
-
-/// What a camera adds to its parameters for photos measured in another colour.
-#[component]
-fn HeldColours(camera: String) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let id = StoredValue::new(camera);
-    let found = Memo::new(move |_| {
-        let of = |d: &Document| d.project.cameras.iter().find(|c| c.id == id.get_value()).cloned();
-        desk.document.with(of).filter(|camera| !camera.colours.is_empty())
-    });
-    let rows = move |camera: &Camera| {
-        let all = camera.colours.iter().flat_map(|(colour, set)| set.parameters.iter().map(move |p| (*colour, set, p)));
-        let rows = all.map(|(colour, set, (&p, &difference))| {
-            let (value, sigma, unit) = parameter_cells(camera, p, difference, set.sigma.get(&p).copied());
-            view! {
-                <tr>
-                    <td class="left">{colour_name(colour)}</td><td class="left">{parameter_name(p)}</td>
-                    <td>{value}</td><td>{sigma}</td><td class="left wide">{unit}</td>
-                </tr>
-            }
-        });
-        rows.collect_view()
-    };
-    move || {
-        let camera = found.get()?;
-        Some(view! {
-            <div data-held-colours=camera.id.clone()>
-                <p class="note row">
-                    <span>{text::colours_are_held(&camera.id)}</span>
-                    <button class="icon-button small" data-action="forget-colours" aria-label=text::forget_colours title=text::forget_colours
-                        on:click=move |_| desk.forget_colours(&id.get_value())><Glyph icon=Icon::Cross size=12/></button>
-                </p>
-                <table class="table parameters">
-                    <thead><tr>
-                        <th class="left">{text::lens_colour}</th><td class="left"></td><th>{text::colour_difference}</th><th>"σ"</th><td class="left wide"></td>
-                    </tr></thead>
-                    <tbody>{rows(&camera)}</tbody>
-                </table>
-            </div>
-        })
     }
 }
 
@@ -344,7 +298,7 @@ fn Iterations() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
     let ending = move || {
-        let running = desk.job.with(Option::is_some);
+        let running = desk.tasks.job.with(Option::is_some);
         let termination = desk.document.with(|d| d.current().map(|r| r.adjustment.termination));
         match termination {
             _ if running => None,
@@ -357,13 +311,13 @@ fn Iterations() -> impl IntoView {
     };
     view! {
         <h2 class="section-head"><span>{text::iterations}</span><span class="aside">"σ₀, " {text::logarithmic}</span></h2>
-        <Convergence iterations=Signal::derive(move || desk.iterations.get())/>
-        <Show when=move || desk.iterations.with(|i| !i.is_empty()) fallback=|| view! { <p class="note">{text::no_iterations}</p> }>
+        <Convergence iterations=Signal::derive(move || desk.processing.iterations.get())/>
+        <Show when=move || desk.processing.iterations.with(|i| !i.is_empty()) fallback=|| view! { <p class="note">{text::no_iterations}</p> }>
             <table class="table iterations">
                 <thead><tr><th>{text::number}</th><th>"σ₀"</th><th>{text::largest_step} " " <u>{unit}</u></th><th>{text::damping}</th></tr></thead>
                 <tbody>
                     {move || {
-                        let all = desk.iterations.get();
+                        let all = desk.processing.iterations.get();
                         let last = all.len();
                         all.into_iter().enumerate().map(|(i, it)| view! {
                             <tr class:chosen=i + 1 == last>
@@ -411,7 +365,7 @@ fn PhotoResiduals() -> impl IntoView {
         }
     };
     view! {
-        <Show when=move || desk.job.with(Option::is_none) && rows.with(|rows| !rows.is_empty())>
+        <Show when=move || desk.tasks.job.with(Option::is_none) && rows.with(|rows| !rows.is_empty())>
             <h2 class="section-head"><span>{comparing::residuals_by_photo}</span></h2>
             <table class="table photo-residuals">
                 <thead><tr>

@@ -1,32 +1,33 @@
 //! Warnings and advice as sentences: remedy, reason, and the number behind it.
 
 mod grouping;
+mod items;
 mod notes;
 mod questions;
 mod systematic;
 mod verdict;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use leptos::prelude::*;
 use sightline::adjustment::{Exchange, Given};
-use sightline::orient::Note;
-use sightline::project::{DatumKind, Parameter, Role};
+use sightline::project::Parameter;
 
-use super::adjust::parameter_name;
-use super::icon::{Glyph, Icon};
-use super::results::units::length_unit;
-use super::results::{given_kind, given_name};
-use super::shell::step_label;
+use super::components::icon::{Glyph, Icon};
 use crate::format;
-use crate::i18n::{systematic as words, text};
-use crate::store::document::Outcome;
+use crate::i18n::{name_list, systematic as words, text};
 use crate::store::{Desk, Step, axes_here};
+use crate::view::components::given::given_kind;
+use crate::view::components::given::given_name;
+use crate::view::components::parameters::parameter_name;
+use crate::view::components::title::step_label;
+use crate::view::components::units::length_unit;
 
+use items::items;
 use notes::{is_said, note_item};
 pub use verdict::VerdictLine;
 
-/// What to go to for more.
+/// Link to more information.
 #[derive(Clone, Debug, PartialEq)]
 enum Target {
     None,
@@ -47,7 +48,7 @@ enum Target {
         camera: String,
         parameters: Vec<Parameter>,
     },
-    /// Exchanges axes of everything given; which of several it was is the person's to say.
+    /// Exchanges the axes of all given values; the user chooses among several exchanges.
     Exchange(Vec<Exchange>),
     /// Takes the standard errors as they were given, and adjusts again.
     GivenWeights,
@@ -114,7 +115,7 @@ pub fn Advice() -> impl IntoView {
     }
 }
 
-/// What contradicts the photos, a line each beside sigma0, which may not show it.
+/// Contradictions between photos and given values, one line each beside sigma0, which may not show them.
 #[component]
 pub fn Contradictions() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -126,7 +127,7 @@ pub fn Contradictions() -> impl IntoView {
         });
         let said = desk.document.with(|d| d.current().map(|r| (r.adjustment.advice.clone(), length_unit(d))));
         if let Some((said, unit)) = said {
-            desk.notes.with(|all| {
+            desk.processing.notes.with(|all| {
                 let new = all.iter().filter(|note| note.contradicts() && !is_said(note, &said));
                 found.extend(new.filter_map(|note| note_item(note, &unit)));
             });
@@ -191,122 +192,6 @@ fn follow(desk: Desk, target: &Target) {
     }
 }
 
-fn items(desk: Desk) -> Vec<Item> {
-    let mut items = Vec::new();
-    desk.document.with(|d| {
-        let control = d.project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some()).count();
-        match d.project.datum.kind {
-            DatumKind::Control if control < 3 => items.push(Item {
-                warning: true,
-                title: text::lacks_control().to_owned(),
-                body: text::lacks_control_body().to_owned(),
-                evidence: text::n_control(control),
-                target: Target::Step(Step::Control),
-            }),
-            DatumKind::Free | DatumKind::Minimal if d.project.distances.is_empty() && control < 2 => items.push(Item {
-                warning: true,
-                title: text::lacks_scale().to_owned(),
-                body: text::lacks_scale_body().to_owned(),
-                evidence: String::new(),
-                target: Target::Step(Step::Control),
-            }),
-            _ => {}
-        }
-        // How often each point is seen, and in which photo first; the photos in which something is.
-        let mut rays = HashMap::<&str, (usize, &str)>::new();
-        let mut seeing = HashSet::new();
-        for o in d.project.observations.iter().filter(|o| o.enabled) {
-            rays.entry(&o.point).or_insert((0, &o.photo)).0 += 1;
-            seeing.insert(o.photo.as_str());
-        }
-        let tie = d.project.points.iter().filter(|p| p.role == Role::Tie);
-        let single = tie.filter_map(|p| match rays.get(p.id.as_str()) {
-            Some((1, photo)) => Some((p.id.clone(), (*photo).to_owned())),
-            _ => None,
-        });
-        let single = single.collect::<Vec<_>>();
-        if let Some((point, photo)) = single.first() {
-            items.push(Item {
-                warning: true,
-                title: text::seen_once(listed(single.iter().map(|(point, _)| point.as_str()))),
-                body: text::seen_once_body(point, photo),
-                evidence: text::n_points(single.len()),
-                target: Target::Observation { photo: photo.clone(), point: point.clone() },
-            });
-        }
-        let empty = d.project.photos.iter().filter(|p| p.enabled && !seeing.contains(p.id.as_str()));
-        let empty = empty.map(|p| p.id.clone()).collect::<Vec<_>>();
-        if let Some(photo) = empty.first() {
-            items.push(Item {
-                warning: true,
-                title: text::photo_without_points(listed(empty.iter().map(String::as_str))),
-                body: text::photo_without_points_body().to_owned(),
-                evidence: text::n_photos(empty.len()),
-                target: Target::Photo(photo.clone()),
-            });
-        }
-        if let Some(result) = d.current() {
-            let adjustment = &result.adjustment;
-            let unit = length_unit(d);
-            // What spoils everything else comes first; the scale is told above.
-            let (spoils, rest): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_input(a));
-            let spoils = spoils.into_iter().filter(|a| !matches!(a, sightline::adjustment::Advice::NoScale));
-            items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
-            let (first, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|a| of_the_fit(a));
-            let first = first.into_iter().filter(|a| !grouping::is_one_of_several(a, &adjustment.advice));
-            let with_tested =
-                |advice| systematic::with_tested(network_item(advice, &adjustment.criteria, &unit), advice, adjustment);
-            items.extend(first.map(with_tested));
-            items.extend(grouping::insignificant(&adjustment.advice));
-            let others = others.into_iter().filter(|a| !is_correlation(a));
-            items.extend(others.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
-        }
-    });
-    // What is said of a point, a photo or a measurement is said once; a step can mend several things.
-    let one = |target: &Target| matches!(target, Target::Point(_) | Target::Photo(_) | Target::Observation { .. });
-    let said = items.iter().map(|i| i.target.clone()).filter(one).collect::<Vec<_>>();
-    let adjusted = desk.document.with(|d| d.current().is_some());
-    let advised = desk.document.with(|d| d.current().map(|r| r.adjustment.advice.clone()).unwrap_or_default());
-    let unit = desk.document.with(length_unit);
-    desk.notes.with(|notes| {
-        // Once there is a result its own test says what disagrees.
-        let disagrees = |n: &&Note| matches!(n, Note::MeasurementDisagrees { .. });
-        let others = notes.iter().filter(|n| !disagrees(n) && !is_said(n, &advised));
-        let disagreeing = notes.iter().filter(disagrees).take(if adjusted { 0 } else { 5 });
-        let new = grouping::note_items(others.chain(disagreeing), &unit);
-        items.extend(new.into_iter().filter(|i| !said.contains(&i.target)));
-        let more = notes.iter().filter(disagrees).count().saturating_sub(5);
-        if more > 0 && !adjusted {
-            let title = text::more_notes(format::count(more));
-            let body = text::measurement_disagrees_body().to_owned();
-            let target = Target::Step(Step::Identities);
-            items.push(Item { warning: true, title, body, evidence: String::new(), target });
-        }
-    });
-    // What says the least of what to do comes last.
-    desk.document.with(|d| {
-        let Some(Outcome { adjustment: a, .. }) = d.current().map(AsRef::as_ref) else { return };
-        items.extend(camera_against_photos(&a.advice, &a.criteria));
-        items.extend(grouping::correlations(&a.advice, &a.criteria));
-    });
-    if items.is_empty() && adjusted {
-        items.push(Item {
-            warning: false,
-            title: text::nothing_lacks().to_owned(),
-            body: text::nothing_lacks_body().to_owned(),
-            evidence: String::new(),
-            target: Target::None,
-        });
-    }
-    items
-}
-
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    let all = names.collect::<Vec<_>>();
-    let shown = all.iter().take(8).copied().collect::<Vec<_>>().join(", ");
-    if all.len() > 8 { format!("{shown}, …") } else { shown }
-}
-
 /// Whether it asks about the input.
 fn of_the_input(advice: &sightline::adjustment::Advice) -> bool {
     use sightline::adjustment::Advice as A;
@@ -321,7 +206,7 @@ fn of_the_input(advice: &sightline::adjustment::Advice) -> bool {
     )
 }
 
-/// Whether it says what is wrong with the fit, rather than what the network is weak in.
+/// Whether it concerns the fit rather than a weakness of the network.
 fn of_the_fit(advice: &sightline::adjustment::Advice) -> bool {
     use sightline::adjustment::Advice as A;
     matches!(
@@ -347,7 +232,7 @@ fn unmodelled(px: f64) -> Target {
     Target::Unmodelled((px * 1000.0).round() / 1000.0)
 }
 
-/// Whether it is a correlation: these are told as one item a camera.
+/// Whether it is a correlation: these are shown as one item per camera.
 fn is_correlation(advice: &sightline::adjustment::Advice) -> bool {
     matches!(advice, sightline::adjustment::Advice::HighCorrelation { .. })
 }
@@ -381,16 +266,13 @@ fn camera_against_photos(
     Some(Item {
         warning: true,
         title: text::camera_against_photos(photos.len()),
-        body: text::camera_against_photos_body(
-            format::fixed(criteria.high_correlation, 2),
-            listed(photos.iter().map(String::as_str)),
-        ),
+        body: text::camera_against_photos_body(format::fixed(criteria.high_correlation, 2), name_list(&photos)),
         evidence: format!("{pair} {}", format::fixed(r, 2)),
         target: photos.first().map_or(Target::None, |photo| Target::Photo(photo.clone())),
     })
 }
 
-/// What the engine says of a network that is solvable but weak.
+/// The engine's advice on a network that is solvable but weak.
 fn network_item(
     advice: &sightline::adjustment::Advice,
     criteria: &sightline::adjustment::Criteria,
@@ -399,7 +281,7 @@ fn network_item(
     use sightline::adjustment::Advice;
     let pairs = |pairs: &[(String, String)]| {
         let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
-        listed(names.iter().map(String::as_str))
+        name_list(names)
     };
     let observation = |all: &[(String, String)]| {
         all.first()
@@ -419,18 +301,18 @@ fn network_item(
             // What is given by hand first: there a wrong number is easiest to look up.
             let names = given.iter().map(|what| format!("{} {}", given_kind(what), given_name(what)));
             let names: Vec<String> = names.chain(observations.iter().map(|(a, b)| format!("{a} – {b}"))).collect();
-            let body = text::low_redundancy_body(listed(names.iter().map(String::as_str)));
+            let body = text::low_redundancy_body(name_list(names));
             let target = given.first().map_or_else(|| observation(observations), step_of);
             (title, body, format!("r < {}", format::round(criteria.low_redundancy)), target)
         }
         Advice::TwoRays { points } => (
-            text::two_rays(listed(points.iter().map(String::as_str))),
+            text::two_rays(name_list(points)),
             text::two_rays_body().to_owned(),
             text::n_points(points.len()),
             points.first().map_or(Target::None, |point| Target::Point(point.clone())),
         ),
         Advice::NarrowIntersection { points } => (
-            text::narrow(listed(points.iter().map(|(point, _)| point.as_str()))),
+            text::narrow(name_list(points.iter().map(|(point, _)| point.as_str()))),
             text::narrow_body().to_owned(),
             points.first().map(|(_, angle)| format!("{}°", format::fixed(angle.to_degrees(), 1))).unwrap_or_default(),
             points.first().map_or(Target::None, |(point, _)| Target::Point(point.clone())),
@@ -448,7 +330,7 @@ fn network_item(
             Target::Step(Step::Control),
         ),
         Advice::ResidualPattern { camera, pattern, photos, p_value, max_px, sigma0, remedy, .. } => {
-            return systematic::told(camera, (*pattern, photos), [*max_px, *p_value, *sigma0], remedy);
+            return systematic::sentences(camera, (*pattern, photos), [*max_px, *p_value, *sigma0], remedy);
         }
         Advice::SigmasTooSmall { sigma0, unmodelled: px } => (
             text::sigmas_optimistic(format::fixed(*sigma0, 1)),
@@ -528,10 +410,10 @@ fn network_item(
     Item { warning: true, title, body, evidence, target }
 }
 
-type Words = (String, String, String, Target);
+type ItemText = (String, String, String, Target);
 
 /// A control point that is not where the photos see it.
-fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64, unit: &str) -> Words {
+fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64, unit: &str) -> ItemText {
     let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs())).unwrap_or_default();
     let size = difference[0].hypot(difference[1]).hypot(difference[2]);
     (
@@ -543,16 +425,16 @@ fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64, unit: &s
 }
 
 /// Two control points that seem exchanged.
-fn exchanged_points([a, b]: &[String; 2]) -> Words {
+fn exchanged_points([a, b]: &[String; 2]) -> ItemText {
     let body = text::exchanged_points_body().to_owned();
     (text::exchanged_points(a, b), body, String::new(), Target::Step(Step::Control))
 }
 
 /// Points that may be one.
-fn double_points(pairs: &[(String, String)]) -> Words {
+fn double_points(pairs: &[(String, String)]) -> ItemText {
     let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
     let target = pairs.first().map_or(Target::None, |(_, point)| Target::Point(point.clone()));
-    let title = text::double_points(listed(names.iter().map(String::as_str)));
+    let title = text::double_points(name_list(names));
     (title, text::double_points_body().to_owned(), format::count(pairs.len()), target)
 }
 

@@ -3,12 +3,14 @@
 use leptos::prelude::*;
 use sightline::calibration::{Coverage, CoverageLack, CrossValidation, CrossVerdict, diagonal_field, proposed_models};
 
-use super::icon::{Glyph, Icon};
-use super::models::{ModelComparison, ModelMenu, name_of};
-use super::shell::{TitleBar, choose_photos};
+use super::components::icon::{Glyph, Icon};
+use super::models::{ModelComparison, ModelMenu};
 use crate::format;
 use crate::i18n::{calibrating as words, text};
 use crate::store::{Desk, Step};
+use crate::view::components::choosing::choose_photos;
+use crate::view::components::parameters::model_name;
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Calibrate() -> impl IntoView {
@@ -26,7 +28,7 @@ pub fn Calibrate() -> impl IntoView {
     view! {
         <TitleBar title=words::calibrate sentence=Signal::derive(sentence)>
             <Show when=move || any.get()>
-                <button class="button primary" data-action="adjust" disabled=move || desk.job.with(Option::is_some) on:click=move |_| desk.adjust()>{text::adjust_now}</button>
+                <button class="button primary" data-action="adjust" disabled=move || desk.tasks.job.with(Option::is_some) on:click=move |_| desk.adjust()>{text::adjust_now}</button>
             </Show>
         </TitleBar>
         <main class="files calibrating scroll" tabindex="0" aria-label=words::calibrate>
@@ -78,7 +80,7 @@ pub fn Calibrate() -> impl IntoView {
     }
 }
 
-/// What the photos of a camera cover, looked at anew as the document changes.
+/// Coverage of the image by the targets of a camera's photos, updated when the document changes.
 #[component]
 fn Covered(camera: String) -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -161,7 +163,7 @@ fn Bars(head: crate::i18n::Text, rows: Vec<(String, usize)>, of: &'static str) -
     }
 }
 
-/// The model that the focal length of the photos' files speaks for: offered, never taken by itself.
+/// The camera model suggested by the focal length in the photos' files: offered, never set automatically.
 #[component]
 pub fn ProposedModel(camera: String) -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -172,7 +174,7 @@ pub fn ProposedModel(camera: String) -> impl IntoView {
             let photo = d.project.photos.iter().find(|p| p.camera == camera.id).map(|p| p.id.clone())?;
             Some((camera, photo))
         })?;
-        let distance = desk.files.with(|files| {
+        let distance = desk.photos.files.with(|files| {
             let info = &files.get(&photo)?.info;
             info.principal_distance_px(camera.width, camera.height)
         })?;
@@ -181,12 +183,12 @@ pub fn ProposedModel(camera: String) -> impl IntoView {
     });
     move || {
         let (field, models) = proposal.get()?;
-        let names = models.iter().map(|model| name_of(model)).collect::<Vec<_>>().join(", ");
+        let names = models.iter().map(|model| model_name(model)).collect::<Vec<_>>().join(", ");
         Some(view! {
             <p class="note warn" data-result="proposed-model">{words::proposed(format::fixed(field, 0), names)}</p>
             <div class="row note">
                 {models.into_iter().map(|model| view! {
-                    <button class="button small" data-propose=model on:click=move |_| desk.choose_model(&id.get_value(), model)>{words::propose_use(name_of(model))}</button>
+                    <button class="button small" data-propose=model on:click=move |_| desk.choose_model(&id.get_value(), model)>{words::propose_use(model_name(model))}</button>
                 }).collect_view()}
             </div>
         })

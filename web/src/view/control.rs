@@ -1,22 +1,24 @@
 //! Step 4: control points, measured distances, unit and datum.
 
+use crate::view::components::coordinates::{AXES_CHOICES, CoordinateHead};
 use leptos::prelude::*;
-use sightline::axes::{ShownAxes, UserAxes};
+use sightline::axes::ShownAxes;
 use sightline::project::{DatumKind, Point, Role};
 
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
+use super::distance_sheet::DistanceSheet;
 use super::equipment::BarsOffer;
-use super::field::Field;
-use super::icon::{Glyph, Icon};
 use super::identities::NamedPhoto;
 use super::import::ImportSheet;
-use super::shell::TitleBar;
 use crate::browser::{event, file};
 use crate::edit::control::{DistanceFault, Unit};
 use crate::format;
 use crate::i18n::{Text, lists, text, text::role_word};
 use crate::store::control::distance_fault;
-use crate::store::texts::Reading as TextReading;
+use crate::store::texts::ListKind;
 use crate::store::{Desk, Step};
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Control() -> impl IntoView {
@@ -38,6 +40,7 @@ pub fn Control() -> impl IntoView {
             <div class="columns scroll">
                 <PasteBox/>
                 <ImportSheet/>
+                <DistanceSheet/>
                 <Known/>
                 <Distances/>
                 <Centres/>
@@ -50,7 +53,7 @@ pub fn Control() -> impl IntoView {
 fn choose_control(desk: Desk) {
     file::choose(".csv,.txt,.tsv,.dat,text/plain,text/csv", false, move |files| {
         if let Some(file) = files.into_iter().next() {
-            desk.read_text(file, TextReading::Control);
+            desk.read_text(file, ListKind::Control);
         }
     });
 }
@@ -66,7 +69,7 @@ fn PasteBox() -> impl IntoView {
                 <textarea id="paste" rows="2" placeholder=move || text::paste_control(desk.axes().list(), desk.axes().names().map(|axis| format!("s{axis}")).join(", ")) on:input=move |e| {
                     let typed = event::value(&e);
                     if typed.trim().is_empty() {
-                        desk.pasted.set(None);
+                        desk.intake.pasted.set(None);
                     } else {
                         desk.read_control(text::pasted().to_owned(), &typed);
                     }
@@ -75,10 +78,6 @@ fn PasteBox() -> impl IntoView {
         </section>
     }
 }
-
-/// How coordinates can be shown, by the values of menus.
-pub(super) const AXES_CHOICES: [(&str, Option<UserAxes>); 3] =
-    [("", None), ("enh", Some(UserAxes::Enh)), ("neh", Some(UserAxes::Neh))];
 
 /// The project's unit of length: what every coordinate and length on this page is in.
 #[component]
@@ -104,46 +103,6 @@ fn UnitChoice() -> impl IntoView {
         <Show when=move || unit.with(|unit| Unit::named(unit).is_none())>
             <span class="aside warn" data-unit="unknown" role="alert">{move || text::unit_unknown(unit.get())}</span>
         </Show>
-    }
-}
-
-pub(super) fn xyz_cells(axes: ShownAxes, point: &Point, decimals: usize) -> impl IntoView + use<> {
-    let xyz = point.xyz;
-    axes.order().map(|k| view! { <td>{format::maybe(xyz.map(|x| x[k]), decimals)}</td> }).collect_view()
-}
-
-pub(super) fn sigma_cells(axes: ShownAxes, point: &Point) -> impl IntoView + use<> {
-    let sigma = point.sigma.unwrap_or_default();
-    let role = point.role;
-    axes.order()
-        .map(|k| {
-            let shown = match sigma[k] {
-                Some(s) if s > 0.0 => format::fixed(s, format::decimals_for(s)),
-                _ if role == Role::Tie => "–".to_owned(),
-                _ => text::fixed().to_owned(),
-            };
-            view! { <td>{shown}</td> }
-        })
-        .collect_view()
-}
-
-#[component]
-pub(super) fn CoordinateHead(
-    #[prop(optional)] unit: Option<String>,
-    #[prop(optional)] axes: Option<ShownAxes>,
-) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    // The project's, or that of a list before it is taken.
-    let unit = Memo::new(move |_| unit.clone().unwrap_or_else(|| desk.document.with(|d| d.project.unit.clone())));
-    let axes = Memo::new(move |_| axes.unwrap_or_else(|| desk.axes()));
-    let coordinate = move |name: &'static str| view! { <th>{name} " " <u>{unit}</u></th> };
-    let sigma = move |name: &'static str| view! { <th>"σ"<sub>{name}</sub> " " <u>{unit}</u></th> };
-    view! {
-        <th class="left">{text::id}</th>
-        <th class="left">{text::role}</th>
-        {move || axes.get().names().map(coordinate).collect_view()}
-        {move || axes.get().names().map(sigma).collect_view()}
-        <td class="left wide"></td>
     }
 }
 
@@ -380,7 +339,7 @@ fn Distances() -> impl IntoView {
     }
 }
 
-/// The datum, each kind with the sentence that says what it means.
+/// The datum; each kind has a sentence that explains it.
 #[component]
 pub fn DatumChoice() -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -5,7 +5,7 @@ use sightline::exif::{Aberration, LensCorrection, PhotoInfo, Setting};
 use crate::edit::pairs;
 use crate::i18n::text;
 
-/// A sentence or two; none where the file says nothing.
+/// One or two sentences; `None` if the file has no such data.
 pub fn sentence(file: &str, info: &PhotoInfo) -> Option<String> {
     let named = |made: bool| {
         let of = info.corrections.iter().filter(|correction| (correction.setting != Setting::Off) == made);

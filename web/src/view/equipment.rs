@@ -5,18 +5,17 @@ use sightline::adjustment::AdjustedCamera;
 use sightline::equipment::{Calibration, KnownCamera, ScaleBar, Use};
 use sightline::project::{Camera, Parameter};
 
-use super::adjust::parameter_name;
-use super::apart::colour_name;
-use super::icon::{Glyph, Icon};
+use super::components::icon::{Glyph, Icon};
 use super::origin::{OriginNotes, read_from};
-use super::results::parameter_cells;
-use super::shell::TitleBar;
 use crate::browser::{event, file};
 use crate::edit::control::Unit;
 use crate::format;
 use crate::i18n::{Text, equipment as words, interchange as exchange, text};
 use crate::store::Desk;
 use crate::store::equipment::TypedBar;
+use crate::view::components::parameters::parameter_cells;
+use crate::view::components::parameters::parameter_name;
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Equipment() -> impl IntoView {
@@ -61,7 +60,7 @@ pub fn Equipment() -> impl IntoView {
     }
 }
 
-/// What was taken away last can be had back.
+/// The last removal can be undone.
 #[component]
 fn Removed() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -90,12 +89,7 @@ fn values(camera: &Camera, sigma: impl Fn(Parameter) -> Option<f64>) -> String {
         Some(format!("{} {value}{sigma} {unit}", parameter_name(*p)))
     };
     let all = camera.interior.parameters().iter().filter(|p| **p != Parameter::F);
-    let mut all = all.filter_map(shown).collect::<Vec<_>>();
-    if !camera.colours.is_empty() {
-        let colours = camera.colours.keys().map(|colour| colour_name(*colour)).collect::<Vec<_>>();
-        all.push(words::with_colours(colours.join(", ")));
-    }
-    all.join(";  ")
+    all.filter_map(shown).collect::<Vec<_>>().join(";  ")
 }
 
 #[component]
@@ -211,14 +205,14 @@ fn Bars() -> impl IntoView {
     }
 }
 
-/// A field of the form, by the part of the bar that it is.
-type Part = fn(&mut TypedBar) -> &mut String;
+/// Field of the form for a scale bar.
+type BarField = fn(&mut TypedBar) -> &mut String;
 
 #[component]
 fn BarForm() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let typed = RwSignal::new(TypedBar { unit: "mm".into(), ..TypedBar::default() });
-    let fields: [(&'static str, Text, Part); 7] = [
+    let fields: [(&'static str, Text, BarField); 7] = [
         ("bar-name", words::bar_name, |bar| &mut bar.id),
         ("bar-from", text::from_point, |bar| &mut bar.from),
         ("bar-to", text::to_point, |bar| &mut bar.to),
@@ -232,7 +226,7 @@ fn BarForm() -> impl IntoView {
             typed.update(|bar| *bar = TypedBar { unit: std::mem::take(&mut bar.unit), ..TypedBar::default() });
         }
     };
-    let field = move |(name, label, part): (&'static str, Text, Part)| {
+    let field = move |(name, label, part): (&'static str, Text, BarField)| {
         let value = move || typed.with(|bar| part(&mut bar.clone()).clone());
         let hint = move || if name == "bar-date" { words::date_hint() } else { "" };
         view! {
@@ -257,7 +251,7 @@ fn BarForm() -> impl IntoView {
     }
 }
 
-/// What is kept of a camera of the project, offered where its photos were taken with it.
+/// Stored calibrations of a camera of the project, offered if its photos were taken with it.
 #[component]
 pub fn KnownCameraOffer(id: String) -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -26,7 +26,7 @@ pub fn times(factor: f64, sigma: Option<f64>, a_priori_px: Option<f64>) -> Strin
     }
 }
 
-/// Of every group that was estimated; none where none was.
+/// Of every group that was estimated; `None` if none was.
 pub fn estimated(adjustment: &Adjustment) -> Option<String> {
     let all = &adjustment.variance_components;
     let one = |component: &VarianceComponent| {

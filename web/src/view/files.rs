@@ -3,19 +3,19 @@
 
 use leptos::prelude::*;
 
-use super::icon::{Glyph, Icon};
+use super::components::icon::{Glyph, Icon};
 use super::origin::{ConversionLine, ignored_words};
-use super::shell::TitleBar;
 use crate::browser::event;
+use crate::document::Document;
 use crate::i18n::{Text, errors, interchange as words, lists};
 use crate::store::Desk;
-use crate::store::document::Document;
 use crate::store::foreign::{Prepared, Wanted, asks_to_convert};
+use crate::view::components::title::TitleBar;
 
-/// Name in the interface, name for people, content.
-type Row = (&'static str, &'static str, Text);
+/// Name of a format in the interface of the engine, its name for users, and its content.
+type WrittenFile = (&'static str, &'static str, Text);
 
-const CAMERAS: [Row; 7] = [
+const CAMERAS: [WrittenFile; 7] = [
     ("opencv", "OpenCV", words::opencv_means),
     ("ros", "ROS", words::ros_means),
     ("kalibr", "Kalibr", words::kalibr_means),
@@ -24,7 +24,7 @@ const CAMERAS: [Row; 7] = [
     ("micmac", "MicMac", words::micmac_means),
     ("colmap", "COLMAP", words::colmap_camera_means),
 ];
-const NETWORKS: [Row; 7] = [
+const NETWORKS: [WrittenFile; 7] = [
     ("colmap", "COLMAP", words::colmap_means),
     ("colmap-binary", "COLMAP, binary", words::colmap_binary_means),
     ("metashape", "Metashape", words::metashape_means),
@@ -33,7 +33,7 @@ const NETWORKS: [Row; 7] = [
     ("bal", "BAL", words::bal_means),
     ("opencv", "OpenCV", words::opencv_points_means),
 ];
-const POINTS: [Row; 7] = [
+const POINTS: [WrittenFile; 7] = [
     ("spreadsheet", "CSV", lists::spreadsheet_means),
     ("spreadsheet-cp949", "CSV, CP949", lists::spreadsheet_cp949_means),
     ("csv", "CSV", words::tables_means),
@@ -42,8 +42,8 @@ const POINTS: [Row; 7] = [
     ("landxml", "LandXML", lists::landxml_means),
     ("vstars", "V-STARS", words::vstars_means),
 ];
-const RECORD: Row = ("calibration", "CSV, JSON", lists::calibration_means);
-const DRAWINGS: [Row; 4] = [
+const RECORD: WrittenFile = ("calibration", "CSV, JSON", lists::calibration_means);
+const DRAWINGS: [WrittenFile; 4] = [
     ("dxf-2010", "DXF 2010", lists::dxf_2010_means),
     ("dxf", "DXF 12", words::dxf_means),
     ("ply", "PLY", words::ply_means),
@@ -56,7 +56,7 @@ pub fn Files() -> impl IntoView {
     // Files of a document that has changed are not handed over.
     Effect::new(move || {
         desk.document.track();
-        desk.prepared.update(|all| all.clear());
+        desk.other_programs.prepared.update(|all| all.clear());
     });
     let sentence = move || match desk.document.with(Document::out_of_date) {
         true => words::files_stale(),
@@ -120,7 +120,7 @@ fn Cameras() -> impl IntoView {
 
 /// Files that nothing is converted for.
 #[component]
-fn Direct(row: Row) -> impl IntoView {
+fn Direct(row: WrittenFile) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let (format, name, means) = row;
     view! {
@@ -134,10 +134,10 @@ fn Direct(row: Row) -> impl IntoView {
 
 /// Files that are prepared first: what the conversion leaves is read before they are downloaded.
 #[component]
-fn Item(row: Row, wanted: Signal<Wanted>) -> impl IntoView {
+fn Item(row: WrittenFile, wanted: Signal<Wanted>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let (format, name, means) = row;
-    let prepared = move || desk.prepared.with(|all| all.get(&wanted.with(Wanted::key)).cloned());
+    let prepared = move || desk.other_programs.prepared.with(|all| all.get(&wanted.with(Wanted::key)).cloned());
     let button = move || {
         match prepared() {
         Some(Prepared::Waiting) => view! { <span class="aside" aria-busy="true">{words::preparing}</span> }.into_any(),

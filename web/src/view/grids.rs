@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use leptos::prelude::*;
 use sightline::matching::{Board, BoardKind, GridNaming, GridOptions, GridOrientation, UnnamedReason};
 
-use super::field::Field;
+use super::components::field::Field;
 use super::picking::chosen_target;
 use crate::browser::event;
 use crate::format;
@@ -24,7 +24,7 @@ fn reason_words(reason: &UnnamedReason) -> String {
     }
 }
 
-/// What a field of lengths takes.
+/// Values that a length field accepts.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Takes {
     /// A length greater than 0.
@@ -35,81 +35,114 @@ enum Takes {
     Sigma,
 }
 
-/// Rows, columns, pitch and what else is known of the board; then what was named and what was not, and why.
-#[component]
-pub fn GridPanel() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let board = RwSignal::new(Board {
-        rows: 11,
-        columns: 4,
-        pitch: 20.0,
-        kind: BoardKind::Asymmetric,
-        diameter: None,
-        sigma: None,
-        mark: None,
-    });
-    let naming = RwSignal::new(None::<GridNaming>);
-    // What was typed and is not taken, by the field's name: the field shows the earlier value again, and says so.
-    let refused = RwSignal::new(BTreeMap::<&'static str, (fn(&str) -> String, String)>::new());
-    let said = move |name: &'static str| {
-        move || {
-            let (words, typed) = refused.with(|all| all.get(name).cloned())?;
-            Some(view! { <small class="warn" role="alert" data-refused=name>{words(&typed)}</small> })
-        }
-    };
-    let answer = move |name: &'static str, is_taken: bool, words: fn(&str) -> String, typed: String| {
-        refused.update(|all| {
+/// The sentence why a field's text was refused, and the text.
+type RefusedEntry = (fn(&str) -> String, String);
+
+/// The board as it is typed, and the last typed text that was refused: a field shows its earlier value again, with the reason.
+#[derive(Clone, Copy)]
+struct BoardForm {
+    board: RwSignal<Board>,
+    /// By the fields' names.
+    refused: RwSignal<BTreeMap<&'static str, RefusedEntry>>,
+}
+
+impl BoardForm {
+    /// With an asymmetric board that is widely used.
+    fn new() -> Self {
+        let board = Board {
+            rows: 11,
+            columns: 4,
+            pitch: 20.0,
+            kind: BoardKind::Asymmetric,
+            diameter: None,
+            sigma: None,
+            mark: None,
+        };
+        Self { board: RwSignal::new(board), refused: RwSignal::default() }
+    }
+
+    fn answer(self, name: &'static str, is_taken: bool, words: fn(&str) -> String, typed: &str) {
+        self.refused.update(|all| {
             all.remove(name);
             if !is_taken {
                 all.insert(name, (words, typed.trim().to_owned()));
             }
         });
-    };
-    let count =
-        move |read: fn(&Board) -> u32, write: fn(&mut Board, u32), name: &'static str, label: fn() -> &'static str| {
-            view! {
-                <label class="field">
-                    <span>{label}</span>
-                    <Field value=Signal::derive(move || board.with(read).to_string()) commit=move |typed: String| {
-                        let count = typed.trim().parse().ok().filter(|count| *count >= 2);
-                        if let Some(count) = count {
-                            board.update(|b| write(b, count));
-                        }
-                        answer(name, count.is_some(), |typed: &str| grids::no_count(typed), typed);
-                    } attr:class="short" attr:inputmode="numeric" attr:name=name/>
-                    {said(name)}
-                </label>
-            }
-        };
-    let length = move |read: fn(&Board) -> Option<f64>,
-                       write: fn(&mut Board, Option<f64>),
-                       takes: Takes,
-                       name: &'static str,
-                       label: fn() -> &'static str| {
-        view! {
-            <label class="field">
-                <span>{label} " " <u>{move || desk.document.with(|d| d.project.unit.clone())}</u></span>
-                <Field value=Signal::derive(move || board.with(read).map(format::editable).unwrap_or_default())
-                    commit=move |typed: String| {
-                        let value = format::parse(&typed);
-                        let is_taken = match value {
-                            Some(value) if takes == Takes::Sigma => value >= 0.0,
-                            Some(value) => value > 0.0,
-                            None => takes != Takes::Length && typed.trim().is_empty(),
-                        };
-                        if is_taken {
-                            board.update(|b| write(b, value));
-                        }
-                        let words: fn(&str) -> String = match takes {
-                            Takes::Sigma => |typed: &str| grids::no_sigma(typed),
-                            _ => |typed: &str| grids::no_length(typed),
-                        };
-                        answer(name, is_taken, words, typed);
-                    } attr:class="short" attr:inputmode="decimal" attr:name=name/>
-                {said(name)}
-            </label>
-        }
-    };
+    }
+
+    /// Why a field's text was not taken.
+    fn refusal(self, name: &'static str) -> Option<impl IntoView + use<>> {
+        let (words, typed) = self.refused.with(|all| all.get(name).cloned())?;
+        Some(view! { <small class="warn" role="alert" data-refused=name>{words(&typed)}</small> })
+    }
+}
+
+/// A number of rows or columns, two or more.
+#[component]
+fn CountField(
+    form: BoardForm,
+    read: fn(&Board) -> u32,
+    write: fn(&mut Board, u32),
+    name: &'static str,
+    label: fn() -> &'static str,
+) -> impl IntoView {
+    view! {
+        <label class="field">
+            <span>{label}</span>
+            <Field value=Signal::derive(move || form.board.with(read).to_string()) commit=move |typed: String| {
+                let count = typed.trim().parse().ok().filter(|count| *count >= 2);
+                if let Some(count) = count {
+                    form.board.update(|b| write(b, count));
+                }
+                form.answer(name, count.is_some(), |typed: &str| grids::no_count(typed), &typed);
+            } attr:class="short" attr:inputmode="numeric" attr:name=name/>
+            {move || form.refusal(name)}
+        </label>
+    }
+}
+
+#[component]
+fn LengthField(
+    form: BoardForm,
+    read: fn(&Board) -> Option<f64>,
+    write: fn(&mut Board, Option<f64>),
+    takes: Takes,
+    name: &'static str,
+    label: fn() -> &'static str,
+) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    view! {
+        <label class="field">
+            <span>{label} " " <u>{move || desk.document.with(|d| d.project.unit.clone())}</u></span>
+            <Field value=Signal::derive(move || form.board.with(read).map(format::editable).unwrap_or_default())
+                commit=move |typed: String| {
+                    let value = format::parse(&typed);
+                    let is_taken = match value {
+                        Some(value) if takes == Takes::Sigma => value >= 0.0,
+                        Some(value) => value > 0.0,
+                        None => takes != Takes::Length && typed.trim().is_empty(),
+                    };
+                    if is_taken {
+                        form.board.update(|b| write(b, value));
+                    }
+                    let words: fn(&str) -> String = match takes {
+                        Takes::Sigma => |typed: &str| grids::no_sigma(typed),
+                        _ => |typed: &str| grids::no_length(typed),
+                    };
+                    form.answer(name, is_taken, words, &typed);
+                } attr:class="short" attr:inputmode="decimal" attr:name=name/>
+            {move || form.refusal(name)}
+        </label>
+    }
+}
+
+/// Rows, columns, pitch and what else is known of the board; then what was named and what was not, and why.
+#[component]
+pub fn GridPanel() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let form = BoardForm::new();
+    let board = form.board;
+    let naming = RwSignal::new(None::<GridNaming>);
     let first = Memo::new(move |_| {
         let photo = desk.selection.with(|s| s.photo.clone())?;
         chosen_target(desk).map(|t| (photo, [t.u, t.v], t.id))
@@ -122,7 +155,7 @@ pub fn GridPanel() -> impl IntoView {
         <section class="panel" data-panel="grid">
             <h2 class="section-head">
                 <span>{grids::circle_grid}</span>
-                <button class="button small primary" data-action="name-grid" disabled=move || desk.job.with(Option::is_some) on:click=name>
+                <button class="button small primary" data-action="name-grid" disabled=move || desk.tasks.job.with(Option::is_some) on:click=name>
                     {grids::name_dots}
                 </button>
             </h2>
@@ -134,11 +167,13 @@ pub fn GridPanel() -> impl IntoView {
                         <option value="symmetric">{grids::symmetric}</option>
                     </select>
                 </label>
-                {count(|b| b.rows, |b, n| b.rows = n, "grid-rows", grids::rows)}
-                {count(|b| b.columns, |b, n| b.columns = n, "grid-columns", grids::columns)}
-                {length(|b| Some(b.pitch), |b, x| b.pitch = x.unwrap_or(b.pitch), Takes::Length, "grid-pitch", grids::pitch)}
-                {length(|b| b.sigma, |b, x| b.sigma = x, Takes::Sigma, "grid-sigma", grids::sigma)}
-                {length(|b| b.diameter, |b, x| b.diameter = x, Takes::LengthOrNothing, "grid-diameter", grids::diameter)}
+                <CountField form name="grid-rows" label=grids::rows read=|b| b.rows write=|b, n| b.rows = n/>
+                <CountField form name="grid-columns" label=grids::columns read=|b| b.columns write=|b, n| b.columns = n/>
+                <LengthField form name="grid-pitch" label=grids::pitch takes=Takes::Length read=|b| Some(b.pitch)
+                    write=|b, x| b.pitch = x.unwrap_or(b.pitch)/>
+                <LengthField form name="grid-sigma" label=grids::sigma takes=Takes::Sigma read=|b| b.sigma write=|b, x| b.sigma = x/>
+                <LengthField form name="grid-diameter" label=grids::diameter takes=Takes::LengthOrNothing read=|b| b.diameter
+                    write=|b, x| b.diameter = x/>
             </div>
             <p class="hint">{grids::hint}</p>
             <p class="hint" data-grid="first">{move || match first.get() {
@@ -154,7 +189,7 @@ fn kind_of(value: &str) -> BoardKind {
     if value == "symmetric" { BoardKind::Symmetric } else { BoardKind::Asymmetric }
 }
 
-/// What was named; photos without names with the reason.
+/// Named dots; for photos without any, the reason.
 #[component]
 fn Outcome(naming: GridNaming) -> impl IntoView {
     let (named, all) = (naming.named.len(), naming.named.len() + naming.unnamed.len());

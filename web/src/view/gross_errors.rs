@@ -1,12 +1,14 @@
 //! Handling of gross errors, and the record of the search.
 
+use crate::view::components::given::follow;
 use leptos::prelude::*;
-use sightline::adjustment::{AdjustOptions, Given, GrossErrorAction, Robust};
+use sightline::adjustment::{AdjustOptions, GrossErrorAction, Robust};
 
-use super::results::{given_kind, given_name};
 use crate::format;
 use crate::i18n::{Text, text};
-use crate::store::{Desk, Step};
+use crate::store::Desk;
+use crate::view::components::given::given_kind;
+use crate::view::components::given::given_name;
 
 /// A way to treat gross errors.
 #[derive(Clone, Copy, Debug)]
@@ -57,30 +59,7 @@ pub fn GrossErrors() -> impl IntoView {
     }
 }
 
-/// Goes to where the observation can be seen and changed.
-pub fn follow(desk: Desk, photo: &str, point: &str, given: Option<&Given>) {
-    match given {
-        None => {
-            desk.select_observation(photo, point);
-            desk.go(Step::Identities);
-        }
-        Some(Given::Control { point, .. }) => {
-            desk.select_point(point);
-            desk.go(Step::Control);
-        }
-        Some(Given::Distance { from, .. }) => {
-            desk.select_point(from);
-            desk.go(Step::Control);
-        }
-        Some(Given::Position { photo, .. }) => {
-            desk.select_photo(photo);
-            desk.go(Step::Identities);
-        }
-        Some(Given::Parameter { .. }) => desk.go(Step::Adjust),
-    }
-}
-
-/// What was taken out, taken back or weighted down, and why.
+/// Observations that were rejected, restored or downweighted, and why.
 #[component]
 pub fn GrossErrorRecord() -> impl IntoView {
     let desk = expect_context::<Desk>();

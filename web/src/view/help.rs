@@ -68,7 +68,7 @@ pub fn Help() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let dialog = NodeRef::<Dialog>::new();
     Effect::new(move |_| {
-        let open = desk.help.get();
+        let open = desk.window.help.get();
         if let Some(dialog) = dialog.get() {
             if open && !dialog.open() {
                 let _ = dialog.show_modal();
@@ -78,13 +78,13 @@ pub fn Help() -> impl IntoView {
         }
     });
     view! {
-        <dialog class="help" node_ref=dialog aria-labelledby="help-title" on:close=move |_| desk.help.set(false)>
+        <dialog class="help" node_ref=dialog aria-labelledby="help-title" on:close=move |_| desk.window.help.set(false)>
             <div class="help-head">
                 <h2 id="help-title">{text::keys_title}</h2>
-                <button class="button small" type="button" on:click=move |_| desk.help.set(false)>{text::close}</button>
+                <button class="button small" type="button" on:click=move |_| desk.window.help.set(false)>{text::close}</button>
             </div>
             <p>{text::keys_note}</p>
-            <label class="tick"><input type="checkbox" name="single-keys" prop:checked=move || desk.single_keys.get()
+            <label class="tick"><input type="checkbox" name="single-keys" prop:checked=move || desk.window.single_keys.get()
                 on:change=move |e| desk.set_single_keys(event::checked(&e))/><span>{text::single_keys}</span></label>
             <div class="help-keys" tabindex="0" role="region" aria-label=text::keys_title>
                 {all().into_iter().map(|(title, keys)| view! {

@@ -6,23 +6,23 @@ use leptos::prelude::*;
 use sightline::matching::{Doubt, UnsnappedReason};
 use sightline::project::{Observation, Role};
 
-use super::field::Field;
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
+use super::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use super::grids::GridPanel;
-use super::icon::{Glyph, Icon};
 use super::insets::Insets;
 use super::loupe::Loupe;
 use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style};
 use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::questions::{QuestionBar, QuestionList};
-use super::shell::TitleBar;
 use super::strip::Strip;
-use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use crate::browser::{event, file};
 use crate::format;
 use crate::i18n::{first, grids, text, text::role_word};
-use crate::store::texts::Reading;
+use crate::store::texts::ListKind;
 use crate::store::{Desk, Kind, Step};
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Identities() -> impl IntoView {
@@ -55,7 +55,7 @@ pub fn Identities() -> impl IntoView {
                     on:click=move |_| grid_open.update(|open| *open = !*open)>{grids::circle_grid}</button>
             </Show>
             <Show when=move || has_uncoded.get()>
-                <button class="button" data-action="match" title=first::match_how disabled=move || desk.job.with(Option::is_some)
+                <button class="button" data-action="match" title=first::match_how disabled=move || desk.tasks.job.with(Option::is_some)
                     on:click=move |_| desk.match_uncoded()>{first::match_targets}</button>
             </Show>
             <button class="button primary" on:click=move |_| desk.go(Step::Control)>{text::control} <Glyph icon=Icon::Arrow/></button>
@@ -76,7 +76,7 @@ pub fn Identities() -> impl IntoView {
     }
 }
 
-/// What to do next where no point has a name yet.
+/// Next action if no point has a name yet.
 #[component]
 fn NothingNamed() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -97,7 +97,7 @@ fn NothingNamed() -> impl IntoView {
             n => view! {
                 <div class="empty-state" data-empty="codes">
                     <p>{move || first::no_codes(n)}</p>
-                    <button class="button" on:click=move |_| if !desk.series.with_untracked(Option::is_some) { desk.switch_series() }>{text::point_by_point}</button>
+                    <button class="button" on:click=move |_| if !desk.measuring.series.with_untracked(Option::is_some) { desk.switch_series() }>{text::point_by_point}</button>
                 </div>
             }.into_any(),
         })}
@@ -107,7 +107,7 @@ fn NothingNamed() -> impl IntoView {
 fn choose_marks(desk: Desk) {
     file::choose(".txt,.csv,.dat,text/plain", false, move |files| {
         if let Some(file) = files.into_iter().next() {
-            desk.read_text(file, Reading::Marks);
+            desk.read_text(file, ListKind::Marks);
         }
     });
 }
@@ -290,7 +290,7 @@ fn MarksPanel() -> impl IntoView {
                 <section class="panel marks">
                     <h2 class="section-head">
                         <span>{text::marks} " " <span class="id">{marks.file.clone()}</span></span>
-                        <button class="link" on:click=move |_| desk.marks.set(None)>{text::discard}</button>
+                        <button class="link" on:click=move |_| desk.intake.marks.set(None)>{text::discard}</button>
                         <button class="button small primary" disabled=good == 0 on:click=move |_| desk.take_marks(&snapped)>
                             {move || text::take_marks(format::count(good))}
                         </button>
@@ -300,7 +300,7 @@ fn MarksPanel() -> impl IntoView {
                             <span>{text::snap_radius} " " <u>"px"</u></span>
                             <Field value=Signal::stored(format::editable(marks.radius)) commit=move |typed: String| {
                                 if let Some(radius) = format::parse(&typed).filter(|r| *r > 0.0) {
-                                    desk.marks.update(|m| if let Some(m) = m { m.radius = radius });
+                                    desk.intake.marks.update(|m| if let Some(m) = m { m.radius = radius });
                                 }
                             } attr:inputmode="decimal"/>
                         </label>

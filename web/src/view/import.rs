@@ -1,59 +1,72 @@
 //! Preview of a list of points before its import: how it was read, open questions, rejected lines, and resulting points. On step 4 it stands
 //! among the other tables, on every other step over what is there.
 
+mod choices;
 mod words;
 
 use std::collections::{BTreeMap, HashSet};
 
 use leptos::prelude::*;
 use sightline::axes::ShownAxes;
-use sightline::exchange::control_csv::{
-    Assumption, Axes, Basis, ControlTable, Decimal, Field as ControlField, Separator,
-};
-use sightline::exchange::encoding::Encoding;
 use sightline::project::{Point, Role};
 use sightline::units::Unit;
+use sightline_exchange::control_csv::{Assumption, Axes, Basis, ControlTable, Decimal, Field as ControlField};
 
+pub use choices::DecimalChoice;
+use choices::ReadingChoices;
 use words::{assumption_words, field_word};
 
-use super::control::{AXES_CHOICES, CoordinateHead, sigma_cells, xyz_cells};
-use super::field::Field;
-use super::icon::{Glyph, Icon};
+use super::components::icon::{Glyph, Icon};
 use crate::browser::{event, page};
 use crate::format;
 use crate::i18n::{Text, errors, language, lists, text, text::role_word};
 use crate::store::Desk;
 use crate::store::control::Pasted;
+use crate::view::components::coordinates::CoordinateHead;
+use crate::view::components::coordinates::sigma_cells;
+use crate::view::components::coordinates::xyz_cells;
 
 /// Lines of the list that are shown around the first ones; the rejected ones are all listed.
 const LINES: usize = 60;
 
-/// The sheet over a step that is not that of control points.
+/// A sheet over a step that is not that of control points; Esc discards the list.
 #[component]
-pub fn ImportOver() -> impl IntoView {
+pub fn SheetOver(title: Text, discard: fn(Desk), children: Children) -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <div class="import-over" role="dialog" aria-label=lists::import_points
+        <div class="import-over" role="dialog" aria-label=title
             on:keydown=move |e| if event::key(&e).key == "Escape" {
-                desk.pasted.set(None);
+                discard(desk);
             }>
-            <div class="import-title"><h1>{lists::import_points}</h1> <p>{lists::nothing_stored}</p></div>
-            <ImportSheet/>
+            <div class="import-title"><h1>{title}</h1> <p>{lists::nothing_stored}</p></div>
+            {children()}
         </div>
     }
 }
 
-/// What was read, row by row, before it is taken.
+/// The list of points over such a step.
+#[component]
+pub fn ImportOver() -> impl IntoView {
+    view! {
+        <SheetOver title=lists::import_points discard=|desk: Desk| desk.intake.pasted.set(None)><ImportSheet/></SheetOver>
+    }
+}
+
+/// A list is read anew with every choice, and its menus do not change their language by themselves: the field that has the focus keeps it.
+pub fn keep_focus() {
+    language();
+    if let Some(field) = page::focused_field() {
+        page::after(0, move || page::focus_first(&format!(".import {field}")));
+    }
+}
+
+/// The rows that were read, before they are imported.
 #[component]
 pub fn ImportSheet() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sheet = move || {
-        // The words of menus do not change by themselves, and every choice reads the list anew.
-        language();
-        if let Some(field) = page::focused_field() {
-            page::after(0, move || page::focus_first(&format!(".import {field}")));
-        }
-        desk.pasted.get().map(|pasted| view! { <Sheet pasted/> })
+        keep_focus();
+        desk.intake.pasted.get().map(|pasted| view! { <Sheet pasted/> })
     };
     view! { {sheet} }
 }
@@ -86,7 +99,7 @@ fn Sheet(pasted: Pasted) -> impl IntoView {
                         }).collect_view()}
                     </select>
                 </label>
-                <button class="link" on:click=move |_| desk.pasted.set(None)>{text::discard}</button>
+                <button class="link" on:click=move |_| desk.intake.pasted.set(None)>{text::discard}</button>
                 <button class="button small primary" disabled=good == 0 || unasked on:click=move |_| desk.take_control()>
                     {move || text::take_points(format::count(good))}
                 </button>
@@ -97,9 +110,10 @@ fn Sheet(pasted: Pasted) -> impl IntoView {
                 </div>
                 <div class="import-part">
                     <h3 class="section-head"><span>{lists::how_read}</span><span class="aside">{lists::how_read_hint}</span></h3>
-                    <Ways pasted=pasted.clone() typed_sigma/>
+                    <ReadingChoices pasted=pasted.clone() typed_sigma/>
                     {sigma_fault.map(|error| view! { <p class="note bad" role="alert">{move || errors::sentence(&error)}</p> })}
-                    <Reading table=pasted.table.clone() axes=pasted.shown_axes()/>
+                    <ListReading table=pasted.table.clone() axes=pasted.shown_axes()/>
+                    {pasted.brings_another_system().then(|| view! { <p class="note warn" data-system="">{lists::local_system_new}</p> })}
                     <Columns pasted=pasted.clone()/>
                 </div>
                 <div class="import-part">
@@ -114,7 +128,7 @@ fn Sheet(pasted: Pasted) -> impl IntoView {
 /// The list as it is, with what became of each line.
 #[component]
 fn Lines(pasted: Pasted) -> impl IntoView {
-    let place = |row: &sightline::Result<sightline::exchange::control_csv::ControlRow>| match row {
+    let place = |row: &sightline::Result<sightline_exchange::control_csv::ControlRow>| match row {
         Ok(row) => (row.line, None),
         Err(error) => (error.place().line.unwrap_or_default(), Some(error.clone())),
     };
@@ -149,203 +163,9 @@ fn Lines(pasted: Pasted) -> impl IntoView {
     }
 }
 
-/// A choice with its name: an option's value, its word, whether it is the one.
-#[component]
-fn Way(
-    name: &'static str,
-    label: Text,
-    options: Vec<(String, String, bool)>,
-    choose: Callback<String>,
-) -> impl IntoView {
-    view! {
-        <label class="way"><span>{label}</span>
-            <select name=name on:change=move |e| choose.run(event::value(&e))>
-                {options.into_iter().map(|(value, word, chosen)| view! { <option value=value selected=chosen>{word}</option> }).collect_view()}
-            </select>
-        </label>
-    }
-}
-
-/// How the list is read: each with what was recognised, and every other choice.
-#[component]
-fn Ways(pasted: Pasted, typed_sigma: String) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let table = &pasted.table;
-    let is_table = !table.assumptions.iter().any(|a| matches!(a, Assumption::Format { .. }));
-    let choices = &pasted.choices;
-    let option = |value: &str, word: String, chosen: bool| (value.to_owned(), word, chosen);
-    let automatic = |found: Option<String>, chosen: bool| {
-        let word =
-            found.map_or_else(|| lists::automatic().to_owned(), |found| format!("{}: {found}", lists::automatic()));
-        option("", word, chosen)
-    };
-    let order = table.assumptions.iter().find_map(|a| match a {
-        Assumption::AxisOrder { order, by } if *by != Basis::Undecided => Some(*order),
-        _ => None,
-    });
-    let order_word = |order| match order {
-        Axes::Xy => lists::east_first().to_owned(),
-        Axes::Yx => lists::north_first().to_owned(),
-    };
-    // Where the columns are chosen, their menus say the axes.
-    let by_columns = choices.columns.is_some();
-    let axes = (!by_columns).then(|| {
-        let options = vec![
-            automatic(order.map(order_word).filter(|_| choices.axes.is_none()), choices.axes.is_none()),
-            option("xy", lists::east_first().to_owned(), choices.axes == Some(Axes::Xy)),
-            option("yx", lists::north_first().to_owned(), choices.axes == Some(Axes::Yx)),
-        ];
-        let choose = move |value: String| {
-            desk.choose_reading(|choices, _| {
-                choices.axes = match value.as_str() {
-                    "xy" => Some(Axes::Xy),
-                    "yx" => Some(Axes::Yx),
-                    _ => None,
-                };
-            });
-        };
-        view! { <Way name="list-axes" label=lists::axes options choose=Callback::new(choose)/> }
-    });
-    let shown = pasted.shown();
-    let options = AXES_CHOICES.map(|(value, axes)| option(value, ShownAxes::of(axes).list(), axes == shown)).to_vec();
-    let choose = move |value: String| {
-        let axes = AXES_CHOICES.iter().find(|known| known.0 == value).and_then(|known| known.1);
-        desk.pasted.update(|pasted| {
-            if let Some(pasted) = pasted {
-                pasted.chosen_axes = Some(axes);
-            }
-        });
-    };
-    let shown = view! { <Way name="list-shown-axes" label=lists::project_axes options choose=Callback::new(choose)/> };
-    let sign = table.assumptions.iter().find_map(|a| match a {
-        Assumption::DecimalSign { sign, by, .. } if *by == Basis::Content => Some(*sign),
-        _ => None,
-    });
-    let sign_word = |sign| match sign {
-        Decimal::Point => lists::decimal_point().to_owned(),
-        Decimal::Comma => lists::decimal_comma().to_owned(),
-    };
-    let decimal = is_table.then(|| {
-        let options = vec![
-            automatic(sign.map(sign_word), choices.decimal.is_none()),
-            option("point", lists::decimal_point().to_owned(), choices.decimal == Some(Decimal::Point)),
-            option("comma", lists::decimal_comma().to_owned(), choices.decimal == Some(Decimal::Comma)),
-        ];
-        let choose = move |value: String| {
-            desk.choose_reading(|choices, _| {
-                choices.decimal = match value.as_str() {
-                    "point" => Some(Decimal::Point),
-                    "comma" => Some(Decimal::Comma),
-                    _ => None,
-                };
-            });
-        };
-        view! { <Way name="list-decimal" label=lists::decimal_mark options choose=Callback::new(choose)/> }
-    });
-    let separators: [(&str, Separator, Text); 4] = [
-        ("comma", Separator::Comma, text::separator_comma),
-        ("semicolon", Separator::Semicolon, text::separator_semicolon),
-        ("tab", Separator::Tab, text::separator_tab),
-        ("blanks", Separator::Blanks, text::separator_blanks),
-    ];
-    let separator = is_table.then(|| {
-        let found = table.assumptions.iter().find_map(|a| match a {
-            Assumption::Separator { separator, by: Basis::Content } => Some(*separator),
-            _ => None,
-        });
-        let found = separators.iter().find(|known| Some(known.1) == found).map(|known| (known.2)().to_owned());
-        let mut options = vec![automatic(found, choices.separator.is_none())];
-        options.extend(
-            separators
-                .iter()
-                .map(|(value, one, word)| option(value, word().to_owned(), choices.separator == Some(*one))),
-        );
-        let choose = move |value: String| {
-            let one = separators.iter().find(|known| known.0 == value).map(|known| known.1);
-            desk.choose_reading(|choices, _| {
-                choices.separator = one;
-                // Other fields are other columns.
-                choices.columns = None;
-            });
-        };
-        view! { <Way name="list-separator" label=lists::separator options choose=Callback::new(choose)/> }
-    });
-    const ENCODINGS: [(&str, Encoding); 4] = [
-        ("UTF-8", Encoding::Utf8),
-        ("UTF-16", Encoding::Utf16),
-        ("CP949", Encoding::Cp949),
-        ("Windows-1252", Encoding::Windows1252),
-    ];
-    let encoding = pasted.from_file.then(|| {
-        let found = table.assumptions.iter().find_map(|a| match a {
-            Assumption::Encoding { encoding, by } if *by != Basis::Given => Some(*encoding),
-            _ => None,
-        });
-        let found = found.or(choices.encoding.is_none().then_some(Encoding::Utf8));
-        let found = ENCODINGS.iter().find(|known| Some(known.1) == found).map(|known| known.0.to_owned());
-        let mut options = vec![automatic(found, choices.encoding.is_none())];
-        options.extend(ENCODINGS.map(|(name, one)| option(name, name.to_owned(), choices.encoding == Some(one))));
-        let choose = move |value: String| {
-            let one = ENCODINGS.iter().find(|known| known.0 == value).map(|known| known.1);
-            desk.choose_reading(|choices, _| choices.encoding = one);
-        };
-        view! { <Way name="list-encoding" label=lists::encoding options choose=Callback::new(choose)/> }
-    });
-    let has_sigmas = table.assumptions.iter().any(|a| matches!(a, Assumption::SigmaColumns { .. }));
-    let sigma_unit = has_sigmas.then(|| {
-        let mut options = vec![option("", lists::as_coordinates().to_owned(), choices.sigma_unit.is_none())];
-        options.extend(
-            Unit::ALL.map(|unit| option(unit.symbol(), unit.symbol().to_owned(), choices.sigma_unit == Some(unit))),
-        );
-        let choose = move |value: String| desk.choose_reading(|choices, _| choices.sigma_unit = Unit::named(&value));
-        view! { <Way name="list-sigma-unit" label=lists::unit_of_sigmas options choose=Callback::new(choose)/> }
-    });
-    let roles: [(&str, Role, Text); 3] = [
-        ("control", Role::Control, lists::as_control),
-        ("check", Role::Check, lists::as_check),
-        ("tie", Role::Tie, lists::as_approximate),
-    ];
-    // A column of roles says it point by point.
-    let role = (!pasted.has_roles()).then(|| {
-        let options =
-            roles.iter().map(|(value, role, word)| option(value, word().to_owned(), pasted.role == *role)).collect();
-        let choose = move |value: String| {
-            let one = roles.iter().find(|known| known.0 == value).map_or(Role::Control, |known| known.1);
-            desk.pasted.update(|pasted| {
-                if let Some(pasted) = pasted {
-                    pasted.role = one;
-                }
-            });
-        };
-        view! { <Way name="list-role" label=lists::taken_as options choose=Callback::new(choose)/> }
-    });
-    let first = choices.first_line.map(|line| line.to_string()).unwrap_or_default();
-    let found = table.rows.first().map(|row| match row {
-        Ok(row) => row.line,
-        Err(error) => error.place().line.unwrap_or_default(),
-    });
-    let first_line = is_table.then(|| view! {
-        <label class="way"><span>{lists::first_line}</span>
-            <Field value=Signal::stored(first) commit=move |typed: String| {
-                let line = typed.trim().parse::<usize>().ok().filter(|line| *line > 0);
-                desk.choose_reading(|choices, _| choices.first_line = line);
-            } attr:name="list-first-line" attr:class="short" attr:inputmode="numeric" attr:placeholder=found.map(|line| line.to_string()).unwrap_or_default()/>
-        </label>
-    });
-    view! {
-        <div class="ways">
-            {role}{axes}{shown}{decimal}{separator}{encoding}{sigma_unit}{first_line}
-            <label class="way"><span>{lists::sigma_of_all}</span>
-                <Field value=Signal::stored(typed_sigma) commit=move |typed: String| desk.set_list_sigma(&typed)
-                    attr:name="list-sigma" attr:placeholder="2 mm + 2 ppm"/>
-            </label>
-        </div>
-    }
-}
-
 /// How a list was read, and what has to be answered before it is taken.
 #[component]
-fn Reading(table: ControlTable, axes: ShownAxes) -> impl IntoView {
+fn ListReading(table: ControlTable, axes: ShownAxes) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let lines: Vec<usize> = table.rows.iter().flatten().map(|row| row.line).collect();
     let assumptions = table.assumptions;
@@ -411,12 +231,14 @@ fn Reading(table: ControlTable, axes: ShownAxes) -> impl IntoView {
     }
 }
 
-/// What columns can hold.
-const FIELDS: [ControlField; 12] = [
+/// Possible contents of columns.
+const FIELDS: [ControlField; 14] = [
     ControlField::Id,
     ControlField::X,
     ControlField::Y,
     ControlField::Z,
+    ControlField::Latitude,
+    ControlField::Longitude,
     ControlField::Sx,
     ControlField::Sy,
     ControlField::Sz,

@@ -4,11 +4,11 @@ use leptos::html::Canvas;
 use leptos::prelude::*;
 use sightline::matching::PhotoPrediction;
 
-use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface};
 use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
+use crate::view::components::transform::Placement;
 
 /// Photos shown at most; the list is ordered by doubt.
 const MOST: usize = 24;
@@ -19,7 +19,7 @@ const REACH: [f64; 2] = [12.0, 160.0];
 #[derive(Clone, Debug, PartialEq)]
 struct Inset {
     photo: String,
-    /// What it is centred on.
+    /// Its centre.
     at: [f64; 2],
     measured: bool,
     /// Outline of the target: full axes and angle.
@@ -30,7 +30,7 @@ struct Inset {
     doubt: f64,
 }
 
-/// What there is to see of the chosen point, the most doubtful first.
+/// Insets of the selected point, the most doubtful first.
 fn insets(desk: Desk) -> Vec<Inset> {
     let Some(point) = desk.selection.with(|s| s.point.clone()) else { return Vec::new() };
     let prediction = desk.prediction();
@@ -99,7 +99,7 @@ fn InsetView(inset: Inset) -> impl IntoView {
     });
     let drawn = inset.clone();
     Effect::new(move |_| {
-        desk.theme.track();
+        desk.window.theme.track();
         let size = bounds.get();
         let Some(surface) = canvas.get().filter(|_| size[0] > 0.0).and_then(|element| Surface::new(&element, size))
         else {
@@ -137,7 +137,7 @@ fn draw(desk: Desk, surface: &Surface, inset: &Inset) {
     });
     let reach = REACH[0].max(size).max(spread).min(REACH[1]);
     let Some(cut) = desk.part(&inset.photo, inset.at, reach) else { return };
-    let (photo, orientation) = desk.files.with_untracked(|files| {
+    let (photo, orientation) = desk.photos.files.with_untracked(|files| {
         files.get(&inset.photo).map_or(([0.0; 2], 1), |f| (f.size.map(f64::from), f.info.orientation))
     });
     let start = Placement { size: photo, orientation, scale: 1.0, shift: [0.0; 2] };

@@ -4,14 +4,13 @@ use leptos::prelude::*;
 use sightline::adjustment::PhotoUnit;
 use sightline::matching::{PhotoPrediction, PhotoVector};
 
-use super::photo_view::Stroke;
-use super::transform::Placement;
 use crate::browser::canvas::Surface;
 use crate::browser::event;
+use crate::document::Document;
 use crate::format;
 use crate::i18n::{Text, monitoring, text};
-use crate::store::document::Document;
 use crate::store::{Desk, Layers};
+use crate::view::components::transform::Placement;
 
 /// Colours and dashes of epipolar lines, one for each of the first photos they come from.
 const LINES: [(&str, &[f64]); 3] = [("--p-a", &[]), ("--p-b", &[8.0, 4.0]), ("--photo-ink-2", &[2.0, 4.0])];
@@ -126,8 +125,8 @@ pub fn LayerChoice() -> impl IntoView {
     let tick = move |words: Text, name: &'static str, get: fn(&Layers) -> bool, set: fn(&mut Layers, bool)| {
         view! {
             <label class="tick">
-                <input type="checkbox" name=name prop:checked=move || desk.layers.with(get)
-                    on:change=move |e| desk.layers.update(|l| set(l, event::checked(&e)))/>
+                <input type="checkbox" name=name prop:checked=move || desk.photo_view.layers.with(get)
+                    on:change=move |e| desk.photo_view.layers.update(|l| set(l, event::checked(&e)))/>
                 <span>{words}</span>
             </label>
         }
@@ -135,8 +134,8 @@ pub fn LayerChoice() -> impl IntoView {
     let slide = move |words: Text, name: &'static str, get: fn(&Layers) -> f64, set: fn(&mut Layers, f64)| {
         view! {
             <label class="slide"><span>{words}</span>
-                <input type="range" name=name min="0.4" max="4" step="0.1" prop:value=move || desk.layers.with(get).to_string()
-                    on:input=move |e| if let Ok(value) = event::value(&e).parse() { desk.layers.update(|l| set(l, value)) }/>
+                <input type="range" name=name min="0.4" max="4" step="0.1" prop:value=move || desk.photo_view.layers.with(get).to_string()
+                    on:input=move |e| if let Ok(value) = event::value(&e).parse() { desk.photo_view.layers.update(|l| set(l, value)) }/>
             </label>
         }
     };
@@ -152,26 +151,33 @@ pub fn LayerChoice() -> impl IntoView {
                 {tick(text::layer_epipolar, "layer-epipolar", |l| l.epipolar, |l, on| l.epipolar = on)}
                 <Show when=move || desk.document.with(|d| d.result.is_some())>
                     {tick(text::layer_residuals, "layer-residuals", |l| l.residuals, |l, on| l.residuals = on)}
-                    <label class="slide"><span>{move || text::times(format::fixed(desk.layers.with(|l| l.residual_factor), 0))}</span>
+                    <label class="slide"><span>{move || text::times(format::fixed(desk.photo_view.layers.with(|l| l.residual_factor), 0))}</span>
                         <input type="range" name="residual-factor" aria-label=text::residual_factor min="0" max=FACTORS.len() - 1 step="1"
-                            prop:value=move || FACTORS.iter().position(|f| *f == desk.layers.with(|l| l.residual_factor)).unwrap_or(3).to_string()
+                            prop:value=move || FACTORS.iter().position(|f| *f == desk.photo_view.layers.with(|l| l.residual_factor)).unwrap_or(3).to_string()
                             on:input=move |e| {
                                 let chosen = event::value(&e).parse::<usize>().ok().and_then(|k| FACTORS.get(k));
-                                if let Some(factor) = chosen { desk.layers.update(|l| l.residual_factor = *factor) }
+                                if let Some(factor) = chosen { desk.photo_view.layers.update(|l| l.residual_factor = *factor) }
                             }/>
                     </label>
                 </Show>
                 <Show when=move || desk.shows_displacements()>
                     <label class="tick">
-                        <input type="checkbox" name="layer-displacements" prop:checked=move || desk.layers.with(|l| l.displacements)
-                            on:change=move |e| desk.layers.update(|l| l.displacements = event::checked(&e))/>
+                        <input type="checkbox" name="layer-displacements" prop:checked=move || desk.photo_view.layers.with(|l| l.displacements)
+                            on:change=move |e| desk.photo_view.layers.update(|l| l.displacements = event::checked(&e))/>
                         <span>{move || monitoring::layer_displacements(format::count(desk.monitoring.shown_factor().round() as usize))}</span>
                     </label>
                 </Show>
                 {slide(text::brightness, "brightness", |l| l.brightness, |l, v| l.brightness = v)}
                 {slide(text::picture_contrast, "contrast", |l| l.contrast, |l, v| l.contrast = v)}
-                <button class="button small" type="button" on:click=move |_| desk.layers.set(Layers::default())>{text::as_it_is}</button>
+                <button class="button small" type="button" on:click=move |_| desk.photo_view.layers.set(Layers::default())>{text::as_it_is}</button>
             </div>
         </Show>
     }
+}
+
+/// A straight stroke over the photo, in its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    pub from: [f64; 2],
+    pub to: [f64; 2],
 }

@@ -4,12 +4,12 @@ use leptos::prelude::*;
 use sightline::adjustment::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};
 use sightline::project::{Project, Role};
 
-use super::gross_errors::follow;
-use super::results::given_name;
-use super::results::units::length_unit;
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
+use crate::view::components::given::follow;
+use crate::view::components::given::given_name;
+use crate::view::components::units::length_unit;
 
 /// A coordinate of a control point or of a projection centre, rather than all of it.
 fn is_coordinate(item: &LeftOutItem) -> bool {
@@ -33,7 +33,7 @@ fn named(items: &[LeftOutItem], kind: LeftOutKind) -> String {
     }
 }
 
-/// How much of what took no part, in one sentence; `None` if everything did.
+/// How much of items that were not used, in one sentence; `None` if everything did.
 fn sentence(items: &[LeftOutItem], project: &Project) -> Option<String> {
     if items.is_empty() {
         return None;

@@ -3,17 +3,17 @@
 use leptos::html::Canvas;
 use leptos::prelude::*;
 
-use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface};
 use crate::i18n::text;
 use crate::store::Desk;
+use crate::view::components::transform::Placement;
 
 /// Photo pixels across the loupe.
 const FIELD: f64 = 21.0;
 
 #[component]
 pub fn Loupe(
-    /// What is selected: centre, full axes, angle.
+    /// The selected target: centre, full axes, angle.
     #[prop(into)]
     target: Signal<Option<[f64; 5]>>,
 ) -> impl IntoView {
@@ -27,18 +27,18 @@ pub fn Loupe(
     // Large targets are shown whole.
     let field = move || target.get().map_or(FIELD, |t| FIELD.max(t[2] * 1.6));
     Effect::new(move |_| {
-        desk.theme.track();
+        desk.window.theme.track();
         let size_here = bounds.get();
         let side = size_here[0];
         let Some(element) = canvas.get().filter(|_| side > 0.0) else { return };
         let Some(surface) = Surface::new(&element, size_here) else { return };
         let Some(photo) = desk.selection.with(|s| s.photo.clone()) else { return };
         let target = target.get();
-        let Some(centre) = desk.cursor.get().or(target.map(|t| [t[0], t[1]])) else { return };
+        let Some(centre) = desk.photo_view.cursor.get().or(target.map(|t| [t[0], t[1]])) else { return };
         let Some(picture) = desk.picture(&photo) else { return };
-        let orientation = desk.files.with(|files| files.get(&photo).map_or(1, |f| f.info.orientation));
+        let orientation = desk.photos.files.with(|files| files.get(&photo).map_or(1, |f| f.info.orientation));
         let shown = picture.size();
-        let file = desk.files.with(|files| files.get(&photo).map(|f| f.size.map(f64::from)));
+        let file = desk.photos.files.with(|files| files.get(&photo).map(|f| f.size.map(f64::from)));
         let size = file.unwrap_or(shown);
         let start = Placement { size, orientation, scale: 1.0, shift: [0.0; 2] };
         let placement = start.centred(centre, side / field(), surface.width, surface.height);

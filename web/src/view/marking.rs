@@ -3,7 +3,7 @@
 
 use leptos::prelude::*;
 
-use super::field::Field;
+use super::components::field::Field;
 use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
@@ -24,7 +24,7 @@ pub fn Keyed(
     }
 }
 
-/// What is asked about the chosen point here: whether a target is it, or where to go next.
+/// Question about the selected point in this photo: whether a target is it, or where to go next.
 #[component]
 pub fn MarkingBar() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -75,7 +75,7 @@ pub fn MarkingBar() -> impl IntoView {
                 <p>{sentence}</p>
                 <Show when=move || desk.in_series() && point.with(Option::is_none)>
                     <label><span>{text::name}</span>
-                        <Field value=Signal::derive(move || desk.series.with(|s| s.as_ref().map(|s| s.next.clone()).unwrap_or_default()))
+                        <Field value=Signal::derive(move || desk.measuring.series.with(|s| s.as_ref().map(|s| s.next.clone()).unwrap_or_default()))
                             commit=move |typed: String| desk.set_next_name(&typed) attr:name="next-name"/>
                     </label>
                 </Show>

@@ -1,21 +1,21 @@
 //! Samples and processing of a photo, in a sentence or two: a RAW's pixels, or the camera's processing of the picture.
 
-use sightline::detection::{Colour, Measured, MeasuredOn, PictureReport};
+use sightline::detection::{Colour, MeasuredOn, PictureReport, SampleSource};
 
 use crate::format;
 use crate::i18n::text;
 
-/// Shares below this are not worth a word.
+/// Shares below this are not reported.
 const WORTH: f64 = 0.005;
-/// Growth of standard errors that is worth one.
+/// Increase of standard errors from which it is reported.
 const GROWN: f64 = 1.05;
 
-/// A share in percent, where it is worth a word.
+/// A share in percent; `None` if it is too small to report.
 fn percent(share: f64) -> Option<String> {
     (share > WORTH).then(|| format::fixed(100.0 * share, 0))
 }
 
-/// What the camera has done to the picture, each with what that means for the measurement; nothing of one of which nothing is known.
+/// Processing of the picture by the camera, with its effect on the measurement; empty if unknown.
 pub fn picture_sentence(picture: &PictureReport) -> String {
     let noise = format::fixed(picture.noise, 1);
     let parts = [
@@ -36,8 +36,8 @@ pub fn picture_sentence(picture: &PictureReport) -> String {
     if what.is_empty() { what } else { text::picture_sentence(what) }
 }
 
-/// Which sites, their noise, how many are over-exposed, and what the file says of its lens.
-pub fn sentence(measured: &Measured, picture: &PictureReport) -> String {
+/// Which sites, their noise, how many are over-exposed, and the lens data of the file.
+pub fn sentence(measured: &SampleSource, picture: &PictureReport) -> String {
     let colour = measured.colour.map_or("", colour);
     let pattern = measured.pattern.clone().unwrap_or_default();
     let on = match measured.on {
@@ -145,7 +145,8 @@ mod tests {
 
     #[test]
     fn a_raw_is_told_how_much_of_it_is_over_exposed() {
-        let measured = Measured { format: "DNG".into(), bits: 12, colour: Some(Colour::Green), ..Measured::default() };
+        let measured =
+            SampleSource { format: "DNG".into(), bits: 12, colour: Some(Colour::Green), ..SampleSource::default() };
         let told = |clipped_bright| sentence(&measured, &PictureReport { clipped_bright, ..PictureReport::default() });
         assert!(told(0.12).ends_with(". 12 % saturated, excluded from the fits."), "{}", told(0.12));
         assert!(!told(0.001).contains("saturated"));

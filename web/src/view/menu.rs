@@ -3,25 +3,25 @@
 use leptos::html::Button;
 use leptos::prelude::*;
 
-use super::shell::choose_project;
+use crate::document::Document;
 use crate::i18n::{
     calibrating, equipment, experiments, first, inside, interchange, monitoring, planning, printing, text,
 };
-use crate::store::document::Document;
 use crate::store::{Desk, Menu, Step};
+use crate::view::components::choosing::choose_project;
 
-/// The button and what it opens; on a phone what it opens stands in the one menu that there is.
+/// The button and what it opens; on a phone its items are in the single menu.
 #[component]
 pub fn FileMenu() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let open = Memo::new(move |_| desk.menu.get() == Some(Menu::File));
+    let open = Memo::new(move |_| desk.window.menu.get() == Some(Menu::File));
     let empty = Memo::new(move |_| desk.document.with(Document::is_empty));
     let photos = Memo::new(move |_| desk.document.with(|d| !d.project.photos.is_empty()));
     let button = NodeRef::<Button>::new();
     let item = move |words: crate::i18n::Text, name: &'static str, act: fn(Desk)| {
         view! {
             <button class="text-button" data-file=name on:click=move |_| {
-                desk.menu.set(None);
+                desk.window.menu.set(None);
                 act(desk);
             }>{words}</button>
         }
@@ -30,7 +30,7 @@ pub fn FileMenu() -> impl IntoView {
         view! {
             <button class=format!("text-button to-{}", step.name()) aria-current=move || (desk.step.get() == step).then_some("page")
                 on:click=move |_| {
-                    desk.menu.set(None);
+                    desk.window.menu.set(None);
                     go(desk);
                 }>{words}</button>
         }
@@ -47,17 +47,17 @@ pub fn FileMenu() -> impl IntoView {
     view! {
         <div class="file" on:keydown=keys>
             <button class="text-button file-button" node_ref=button aria-expanded=move || open.get().to_string() data-action="file"
-                on:click=move |_| desk.menu.update(|menu| *menu = if *menu == Some(Menu::File) { None } else { Some(Menu::File) })>{first::file}</button>
+                on:click=move |_| desk.window.menu.update(|menu| *menu = if *menu == Some(Menu::File) { None } else { Some(Menu::File) })>{first::file}</button>
             <div class="file-menu" class:open=open>
                 {item(first::new_project, "new", |desk| desk.new_project())}
                 {item(text::open_project, "open", choose_project)}
                 <Show when=move || !empty.get()>
                     <button class="text-button" data-file="save" title=text::save_hint on:click=move |e| {
-                        desk.menu.set(None);
+                        desk.window.menu.set(None);
                         desk.save(e.shift_key());
                     }>{text::save}</button>
                     <button class="text-button" data-file="save-all" title=text::save_all_hint on:click=move |_| {
-                        desk.menu.set(None);
+                        desk.window.menu.set(None);
                         desk.save(true);
                     }>{text::save_all}</button>
                 </Show>
@@ -77,13 +77,13 @@ pub fn FileMenu() -> impl IntoView {
     }
 }
 
-/// What lies behind an open menu: a click there closes it, and does nothing else.
+/// Layer behind an open menu: a click on it only closes the menu.
 #[component]
 pub fn MenuGround() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <Show when=move || desk.menu.with(Option::is_some)>
-            <div class="menu-ground" aria-hidden="true" on:click=move |_| desk.menu.set(None)></div>
+        <Show when=move || desk.window.menu.with(Option::is_some)>
+            <div class="menu-ground" aria-hidden="true" on:click=move |_| desk.window.menu.set(None)></div>
         </Show>
     }
 }

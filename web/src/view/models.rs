@@ -1,25 +1,16 @@
 //! The model of a camera: chosen, converted, compared with the others.
 
+use crate::view::components::parameters::model_name;
 use leptos::prelude::*;
 use sightline::calibration::{ComparedModel, ModelVerdict};
 use sightline::project::{Camera, CameraModel, Parameter};
-use sightline::report::names::parameter_name;
+use sightline_report::names::parameter_name;
 
 use super::calibrating::CrossCheck;
 use crate::browser::event;
 use crate::format;
-use crate::i18n::{errors, modelling as words, text};
+use crate::i18n::{errors, modelling as words};
 use crate::store::Desk;
-
-/// A model's name as people read it, by its name in the document.
-pub fn name_of(model: &str) -> &'static str {
-    match model {
-        m if m == CameraModel::BROWN.name => text::model_brown(),
-        m if m == CameraModel::OPENCV.name => text::model_opencv(),
-        m if m == CameraModel::OPENCV_RATIONAL.name => text::model_opencv_rational(),
-        _ => text::model_opencv_fisheye(),
-    }
-}
 
 fn names(parameters: &[Parameter]) -> String {
     parameters.iter().map(|p| parameter_name(*p)).collect::<Vec<_>>().join(", ")
@@ -41,7 +32,7 @@ pub fn ModelMenu(camera: String) -> impl IntoView {
     let left = move || {
         let left = camera.with(|c| c.as_ref().and_then(|c| desk.conversion_of(c)))?;
         let mut said = match left.max_px.zip(left.rms_px) {
-            Some((max, rms)) => words::converted(name_of(&left.from), px(max), px(rms)),
+            Some((max, rms)) => words::converted(model_name(&left.from), px(max), px(rms)),
             None => words::converted_unknown().to_owned(),
         };
         if left.share < 0.995 {
@@ -59,7 +50,7 @@ pub fn ModelMenu(camera: String) -> impl IntoView {
             <span>{words::camera_model}</span>
             <select name="camera-model" prop:value=model on:change=move |e| desk.choose_model(&id.get_value(), &event::value(&e))>
                 {CameraModel::ALL.map(|m| view! {
-                    <option value=m.name selected=move || model() == m.name>{move || name_of(m.name)}</option>
+                    <option value=m.name selected=move || model() == m.name>{move || model_name(m.name)}</option>
                 }).collect_view()}
             </select>
         </label>
@@ -67,7 +58,7 @@ pub fn ModelMenu(camera: String) -> impl IntoView {
     }
 }
 
-/// Whether the coefficients of the rational model are estimated that stand in for its others.
+/// Whether the coefficients of the rational model are estimated that are nearly equivalent to its others.
 fn has_all(parameters: &[Parameter]) -> bool {
     parameters.contains(&Parameter::K5)
 }
@@ -97,7 +88,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
             (ModelVerdict::Failed, None) => words::failed().to_owned(),
         };
         let small = (!row.insignificant.is_empty()).then(|| words::not_told(names(&row.insignificant)));
-        // The rational model stands there without and with K5 and K6.
+        // The rational model is listed without and with K5 and K6.
         let is_present =
             present.get().is_some_and(|(model, whole)| model == row.model && whole == has_all(&row.parameters));
         let taken = row.clone();
@@ -119,7 +110,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
         };
         view! {
             <tr class:chosen=best data-model=model data-verdict=code>
-                <td class="left"><b>{name_of(&row.model)}</b>{has_all(&row.parameters).then_some(", K₁–K₆")}</td>
+                <td class="left"><b>{model_name(&row.model)}</b>{has_all(&row.parameters).then_some(", K₁–K₆")}</td>
                 <td>{number(row.sigma0, 2)}</td>
                 <td>{(!row.parameters.is_empty()).then(|| format::count(row.parameters.len()))}</td>
                 <td>{row.held_out_rms.map(px)}</td>

@@ -10,14 +10,14 @@ mod time;
 mod words;
 
 use leptos::prelude::*;
-use sightline::report::epochs::decimals;
+use sightline_report::epochs::decimals;
 
-use super::icon::{Glyph, Icon};
-use super::shell::TitleBar;
+use super::components::icon::{Glyph, Icon};
 use crate::format;
 use crate::i18n::{Text, monitoring as said, text};
-use crate::store::monitoring::{Ran, View};
+use crate::store::monitoring::{ComparisonRun, MonitoringPage};
 use crate::store::{Desk, Step};
+use crate::view::components::title::TitleBar;
 
 use picture::Picture;
 use points::{Groups, LeftOutPoints, ObjectPoints, ReferencePoints};
@@ -35,11 +35,11 @@ pub fn Monitoring() -> impl IntoView {
     let enough = Memo::new(move |_| monitored.epochs.with(Vec::len) > 1);
     let ran = Memo::new(move |_| monitored.ran.with(Option::is_some));
     let current = Memo::new(move |_| monitored.current().is_some());
-    let views: [(View, &str, Text); 4] = [
-        (View::Setup, "setup", said::setup),
-        (View::Displacements, "displacements", said::displacements),
-        (View::Time, "time", said::over_time),
-        (View::Report, "report", text::report),
+    let views: [(MonitoringPage, &str, Text); 4] = [
+        (MonitoringPage::Setup, "setup", said::setup),
+        (MonitoringPage::Displacements, "displacements", said::displacements),
+        (MonitoringPage::Time, "time", said::over_time),
+        (MonitoringPage::Report, "report", text::report),
     ];
     view! {
         <TitleBar title=said::monitoring sentence=Signal::derive(|| said::sentence().to_owned())>
@@ -52,21 +52,21 @@ pub fn Monitoring() -> impl IntoView {
         <div class="result-views" role="navigation" aria-label=said::monitoring>
             {views.map(|(one, key, name)| view! {
                 <button class="text-button" data-shown=key aria-pressed=move || (monitored.view.get() == one).to_string()
-                    disabled=move || one != View::Setup && !ran.get()
+                    disabled=move || one != MonitoringPage::Setup && !ran.get()
                     on:click=move |_| monitored.view.set(one)>{name}</button>
             }).collect_view()}
         </div>
         {move || match (monitored.view.get(), current.get()) {
-            (View::Setup, _) => view! { <Setup/> }.into_any(),
+            (MonitoringPage::Setup, _) => view! { <Setup/> }.into_any(),
             (_, false) => view! { <OutOfDate/> }.into_any(),
-            (View::Displacements, true) => view! { <Displacements/> }.into_any(),
-            (View::Time, true) => view! { <OverTime/> }.into_any(),
-            (View::Report, true) => view! { <EpochsReport/> }.into_any(),
+            (MonitoringPage::Displacements, true) => view! { <Displacements/> }.into_any(),
+            (MonitoringPage::Time, true) => view! { <OverTime/> }.into_any(),
+            (MonitoringPage::Report, true) => view! { <EpochsReport/> }.into_any(),
         }}
     }
 }
 
-/// What is shown while the last comparison is of other epochs or options.
+/// Text shown while the last comparison is of other epochs or options.
 #[component]
 fn OutOfDate() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -81,11 +81,11 @@ fn OutOfDate() -> impl IntoView {
     }
 }
 
-fn unit(ran: &Ran) -> String {
+fn unit(ran: &ComparisonRun) -> String {
     ran.found.unit.clone().unwrap_or_default()
 }
 
-/// What moved between two epochs.
+/// Movements between two epochs.
 #[component]
 fn Displacements() -> impl IntoView {
     view! {

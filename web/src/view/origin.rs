@@ -1,9 +1,9 @@
 //! Origin of a project or a calibration: assumptions, data not imported, and conversions.
 
 use leptos::prelude::*;
-use sightline::project::{Assumed, Conversion, Ignored, Origin};
+use sightline::project::{Assumed, Conversion, Ignored, LocalSystem, Origin};
 
-use super::icon::{Glyph, Icon};
+use super::components::icon::{Glyph, Icon};
 use crate::format;
 use crate::i18n::{interchange as words, speech};
 use crate::store::Desk;
@@ -25,18 +25,24 @@ pub fn assumed_words(assumed: Assumed) -> &'static str {
     }
 }
 
-/// What is not kept or has no place, with counts.
+/// The sentence for the local system of latitudes and longitudes.
+fn local_system_words(system: LocalSystem) -> String {
+    let LocalSystem { latitude, longitude, height, .. } = system;
+    words::local_system_at(format::editable(latitude), format::editable(longitude), format::editable(height))
+}
+
+/// Contents that are not imported or cannot be written, with counts.
 pub fn ignored_words(ignored: &[Ignored]) -> String {
     let one = |one: &Ignored| words::counted(speech().ignored(&one.name), format::count(one.count));
     ignored.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A difference in pixels with the digits that tell it from none.
+/// A difference in pixels with enough digits to show that it is not 0.
 fn pixels(value: f64) -> String {
     if value >= 0.0005 { format::fixed(value, 3) } else { "< 0.001".to_owned() }
 }
 
-/// What a conversion of a camera leaves.
+/// Remaining difference of a conversion of a camera.
 pub fn conversion_words(conversion: &Conversion) -> String {
     let Conversion { camera, from, to, max_px, rms_px, .. } = conversion;
     words::conversion(camera, from, to, pixels(*max_px), pixels(*rms_px))
@@ -64,16 +70,19 @@ fn named(files: &[String]) -> String {
     }
 }
 
-/// What was assumed, not kept and converted.
+/// Assumptions, contents not imported, and conversions.
 #[component]
 pub fn OriginNotes(origin: Origin) -> impl IntoView {
-    let Origin { assumed, ignored, conversions, .. } = origin;
-    let (any_assumed, any_ignored, any_converted) = (!assumed.is_empty(), !ignored.is_empty(), !conversions.is_empty());
+    let Origin { assumed, ignored, conversions, local_system, .. } = origin;
+    let system =
+        local_system.map(|system| view! { <li data-assumed="LocalSystem">{move || local_system_words(system)}</li> });
+    let (any_assumed, any_ignored, any_converted) =
+        (!assumed.is_empty() || system.is_some(), !ignored.is_empty(), !conversions.is_empty());
     view! {
         <dl class="origin-notes">
             {any_assumed.then(|| view! {
                 <dt>{words::assumed}</dt>
-                <dd><ul>{assumed.into_iter().map(|one| view! { <li data-assumed=format!("{one:?}")>{move || assumed_words(one)}</li> }).collect_view()}</ul></dd>
+                <dd><ul>{system}{assumed.into_iter().map(|one| view! { <li data-assumed=format!("{one:?}")>{move || assumed_words(one)}</li> }).collect_view()}</ul></dd>
             })}
             {any_converted.then(|| view! {
                 <dt>{words::converted}</dt>
@@ -98,7 +107,11 @@ pub fn ProjectOrigin() -> impl IntoView {
         view! {
             <section class="panel origin" data-origin=key>
                 <h2 class="section-head">
-                    <span>{move || words::opened_from(format_name(&format))}</span>
+                    <span>{move || match format.as_str() {
+                        Origin::EARLIER => words::opened_from_earlier().to_owned(),
+                        Origin::LIST => words::local_system().to_owned(),
+                        foreign => words::opened_from(format_name(foreign)),
+                    }}</span>
                     <span class="aside">{files}</span>
                 </h2>
                 <OriginNotes origin/>
@@ -110,6 +123,9 @@ pub fn ProjectOrigin() -> impl IntoView {
 
 /// Where a calibration comes from, in a line.
 pub fn read_from(origin: &Origin) -> String {
+    if !origin.is_foreign() {
+        return words::kept_by_earlier(ignored_words(&origin.ignored));
+    }
     words::read_from(format_name(&origin.format), named(&origin.files))
 }
 
@@ -117,6 +133,7 @@ pub fn read_from(origin: &Origin) -> String {
 mod tests {
     use super::*;
     use crate::i18n::{Language, in_language};
+    use sightline::project::RemovedFields;
 
     #[test]
     fn every_assumption_has_its_sentence_in_both_languages() {
@@ -141,6 +158,17 @@ mod tests {
         let all = [of("colours of points", 12), of("<own element>", 1)];
         assert_eq!(in_language(Language::English, || ignored_words(&all)), "colours of points: 12, <own element>: 1");
         assert_eq!(in_language(Language::Korean, || ignored_words(&all)), "점의 색: 12, <own element>: 1");
+        for name in RemovedFields::NAMES {
+            let [en, ko] = Language::ALL.map(|language| in_language(language, || ignored_words(&[of(name, 1)])));
+            assert!(en.starts_with(name) && !ko.starts_with(name), "{en} {ko}");
+        }
+        let earlier = Origin {
+            format: Origin::EARLIER.into(),
+            ignored: vec![of(RemovedFields::OF_CAMERAS, 1)],
+            ..Origin::default()
+        };
+        let said = in_language(Language::English, || read_from(&earlier));
+        assert!(said.contains("earlier version") && said.contains(RemovedFields::OF_CAMERAS), "{said}");
     }
 
     #[test]

@@ -6,19 +6,21 @@ use leptos::prelude::*;
 use sightline::project::Camera;
 
 use super::calibrating::ProposedModel;
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
 use super::equipment::KnownCameraOffer;
-use super::field::Field;
-use super::icon::{Glyph, Icon};
 use super::models::ModelMenu;
 use super::origin::ProjectOrigin;
 use super::rig::RigPanel;
-use super::shell::{TitleBar, choose_photos, problem_sentence};
 use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
 use crate::edit::cameras::distance_parameter;
 use crate::format;
 use crate::i18n::{equipment, first, interchange, monitoring, planning, text};
+use crate::store::intake::problem_sentence;
 use crate::store::{Desk, Problem, Reason, Step};
+use crate::view::components::choosing::choose_photos;
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Photos() -> impl IntoView {
@@ -49,7 +51,7 @@ pub fn Photos() -> impl IntoView {
         <main class="photos">
             <div class="gallery scroll">
                 <Problems/>
-                <Show when=move || !any.get() && desk.coming.with(Vec::is_empty)>
+                <Show when=move || !any.get() && desk.intake.coming.with(Vec::is_empty)>
                     <div class="empty-state" data-empty="photos">
                         <h2>{first::no_photos}</h2>
                         <p>{move || desk.document.with(|d| match &d.project.epoch {
@@ -97,18 +99,20 @@ fn Gallery(camera: String, picked: RwSignal<BTreeSet<String>>) -> impl IntoView 
     }
 }
 
-/// The photos that are being read, with what their files carry of themselves.
+/// The photos that are being read, with their embedded previews.
 #[component]
 fn Coming() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let names =
-        Memo::new(move |_| desk.coming.with(|all| all.iter().map(|photo| photo.name.clone()).collect::<Vec<_>>()));
+    let names = Memo::new(move |_| {
+        desk.intake.coming.with(|all| all.iter().map(|photo| photo.name.clone()).collect::<Vec<_>>())
+    });
     let tile = move |(place, name): (usize, String)| {
-        let here =
-            Memo::new(move |_| desk.coming.with(|all| all.get(place).is_some_and(|photo| photo.picture.is_some())));
+        let here = Memo::new(move |_| {
+            desk.intake.coming.with(|all| all.get(place).is_some_and(|photo| photo.picture.is_some()))
+        });
         let picture = move || {
             here.get();
-            let picture = desk.coming.with_untracked(|all| all.get(place)?.picture.clone());
+            let picture = desk.intake.coming.with_untracked(|all| all.get(place)?.picture.clone());
             picture.map(|(picture, orientation)| view! { <Thumbnail picture orientation/> })
         };
         view! {
@@ -134,7 +138,7 @@ fn Tile(id: String, file: String, enabled: bool, picked: RwSignal<BTreeSet<Strin
     let desk = expect_context::<Desk>();
     let id = StoredValue::new(id);
     let chosen = move || picked.with(|p| p.contains(&id.get_value()));
-    let digest = Memo::new(move |_| desk.files.with(|files| files.get(&id.get_value()).map(|f| f.digest)));
+    let digest = Memo::new(move |_| desk.photos.files.with(|files| files.get(&id.get_value()).map(|f| f.digest)));
     let choose = move |e: leptos::ev::MouseEvent| {
         let id = id.get_value();
         desk.select_photo(&id);
@@ -159,7 +163,7 @@ fn Tile(id: String, file: String, enabled: bool, picked: RwSignal<BTreeSet<Strin
                 <span class="frame">
                     {move || {
                         digest.get();
-                        match desk.files.with_untracked(|files| files.get(&id.get_value()).cloned()) {
+                        match desk.photos.files.with_untracked(|files| files.get(&id.get_value()).cloned()) {
                             Some(file) => view! { <Thumbnail picture=file.small orientation=file.info.orientation/> }.into_any(),
                             None => view! { <NoThumbnail/> }.into_any(),
                         }
@@ -171,7 +175,7 @@ fn Tile(id: String, file: String, enabled: bool, picked: RwSignal<BTreeSet<Strin
     }
 }
 
-/// What can be done with the photos picked in the gallery.
+/// Actions for the photos selected in the gallery.
 #[component]
 fn Picked(picked: RwSignal<BTreeSet<String>>) -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -236,7 +240,7 @@ fn Picked(picked: RwSignal<BTreeSet<String>>) -> impl IntoView {
     }
 }
 
-/// A camera: what EXIF says of it and the values that everything starts from.
+/// A camera: its EXIF data and initial values.
 #[component]
 fn CameraPanel(id: String) -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -247,7 +251,7 @@ fn CameraPanel(id: String) -> impl IntoView {
         let photo = desk
             .document
             .with(|d| d.project.photos.iter().find(|p| p.camera == id.get_value()).map(|p| p.id.clone()))?;
-        desk.files.with(|files| files.get(&photo).map(|f| f.info.clone()))
+        desk.photos.files.with(|files| files.get(&photo).map(|f| f.info.clone()))
     };
     let model = move || {
         let info = info()?;
@@ -265,7 +269,7 @@ fn CameraPanel(id: String) -> impl IntoView {
         let photo = desk
             .document
             .with(|d| d.project.photos.iter().find(|p| p.camera == id.get_value()).map(|p| p.id.clone()))?;
-        desk.files.with(|files| files.get(&photo).and_then(|f| super::corrections::sentence(&f.name, &f.info)))
+        desk.photos.files.with(|files| files.get(&photo).and_then(|f| super::corrections::sentence(&f.name, &f.info)))
     };
     let exif = move |value: Option<String>| value.unwrap_or_else(|| text::not_in_exif().to_owned());
     let unit = move || if camera.with(|c| c.as_ref().is_some_and(|c| c.pixel_pitch.is_some())) { "mm" } else { "px" };
@@ -319,7 +323,7 @@ fn is_other_of_a_shot(problem: &Problem) -> bool {
 pub fn Problems() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <Show when=move || desk.problems.with(|p| !p.is_empty())>
+        <Show when=move || desk.intake.problems.with(|p| !p.is_empty())>
             <h2 class="section-head">
                 <span>{text::not_taken}</span>
                 <Show when=move || desk.left_out().iter().any(is_other_of_a_shot)>
@@ -330,7 +334,7 @@ pub fn Problems() -> impl IntoView {
                         }}
                     </button>
                 </Show>
-                <button class="link" on:click=move |_| desk.problems.set(Vec::new())>{text::dismiss}</button>
+                <button class="link" on:click=move |_| desk.intake.problems.set(Vec::new())>{text::dismiss}</button>
             </h2>
             <ul class="problems">
                 {move || desk.left_out().into_iter().map(|Problem { file, reason }| view! {

@@ -9,15 +9,15 @@ use crate::browser::event;
 use crate::edit::points::observation_of;
 use crate::i18n::text;
 use crate::store::Desk;
-use crate::store::identity::Asked;
+use crate::store::identity::PhotoPlace;
 
 /// Takes the nearest target, with the name it has, or the nearest observation; elsewhere it measures where it is. With Alt,
 /// or while points are placed freely, the place itself is taken.
 pub fn pick(desk: Desk, click: Click) {
     let Some(photo) = desk.selection.with_untracked(|s| s.photo.clone()) else { return };
     if click.free {
-        if click.inside && desk.series.with_untracked(Option::is_some) {
-            desk.take_in_series(&photo, Asked::Spot([click.u, click.v]));
+        if click.inside && desk.measuring.series.with_untracked(Option::is_some) {
+            desk.take_in_series(&photo, PhotoPlace::Spot([click.u, click.v]));
         } else if click.inside {
             desk.choose_spot(&photo, [click.u, click.v]);
         }
@@ -34,10 +34,10 @@ pub fn pick(desk: Desk, click: Click) {
         (observation_of(&d.project, &photo, targets[target].id).map(|o| o.point.clone()), Some(target))
     });
     let nothing = point.is_none() && target.is_none();
-    if desk.series.with_untracked(Option::is_some) && point.is_none() {
+    if desk.measuring.series.with_untracked(Option::is_some) && point.is_none() {
         // The point that is looked for stays chosen while its next place is measured.
         match target {
-            Some(target) => desk.take_in_series(&photo, Asked::Target(target)),
+            Some(target) => desk.take_in_series(&photo, PhotoPlace::Target(target)),
             None if click.inside => desk.measure_at(&photo, click.u, click.v),
             None => {}
         }
@@ -90,8 +90,8 @@ pub fn Question(
         }
         desk.selection.with(|s| {
             let asked = match (s.target.filter(|_| targets && s.point.is_none()), s.spot) {
-                (_, Some(spot)) => Asked::Spot(spot),
-                (Some(target), None) => Asked::Target(target),
+                (_, Some(spot)) => PhotoPlace::Spot(spot),
+                (Some(target), None) => PhotoPlace::Target(target),
                 (None, None) => return None,
             };
             Some((s.photo.clone()?, asked))
@@ -113,7 +113,7 @@ pub fn Question(
         }
     });
     let words = move || match asked.get() {
-        Some((_, Asked::Spot(_))) => text::name_this_place(),
+        Some((_, PhotoPlace::Spot(_))) => text::name_this_place(),
         _ => text::name_this_target(),
     };
     view! {

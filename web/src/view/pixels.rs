@@ -1,8 +1,8 @@
 //! A magnified photo pixel by pixel: the grid between them, and the samples as they are stored.
 
-use super::transform::Placement;
 use crate::browser::canvas::Surface;
 use crate::store::Desk;
+use crate::view::components::transform::Placement;
 
 /// Screen pixels per pixel from which the grid is drawn.
 const GRID_FROM: f64 = 12.0;

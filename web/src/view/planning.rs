@@ -14,14 +14,14 @@ mod verdict;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::plan::Prediction;
+use sightline_plan::Prediction;
 
-use super::icon::{Glyph, Icon};
-use super::shell::TitleBar;
+use super::components::icon::{Glyph, Icon};
 use crate::browser::page;
+use crate::document::Change;
 use crate::i18n::planning as words;
 use crate::store::Desk;
-use crate::store::document::Change;
+use crate::view::components::title::TitleBar;
 use drawing::Views;
 use inputs::{Beginnings, Inputs};
 use print::ShootingPlan;

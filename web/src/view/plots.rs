@@ -76,7 +76,7 @@ pub struct Vector {
     pub over: bool,
 }
 
-/// Residual vectors in the frame of their photo, exaggerated by a round factor that is said.
+/// Residual vectors in the frame of their photo, exaggerated by a stated round factor.
 #[component]
 pub fn ResidualPlot(
     /// Width and height of the photo in photo units.

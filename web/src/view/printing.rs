@@ -2,17 +2,17 @@
 
 use leptos::prelude::*;
 use sightline::ring_code::{Design, Family};
-use sightline::sheets::{AdviceOptions, Field as Plate, Ground, LEAST_PX, Paper, Pattern, SheetOptions, advice};
+use sightline_report::sheets::{AdviceOptions, Field as Plate, Ground, LEAST_PX, Paper, Pattern, SheetOptions, advice};
 
-use super::field::Field;
-use super::icon::{Glyph, Icon};
-use super::shell::TitleBar;
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
 use crate::browser::event;
 use crate::format;
 use crate::i18n::printing as words;
 use crate::i18n::{Text, errors};
 use crate::store::Desk;
 use crate::store::printing::Saved;
+use crate::view::components::title::TitleBar;
 
 /// Distances of the table, mm.
 const DISTANCES: [f64; 9] = [500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000.0, 8000.0, 10_000.0];
@@ -132,7 +132,7 @@ fn whole(value: f64, most: f64) -> u32 {
     value.clamp(0.0, most) as u32
 }
 
-/// What is to be on the sheets.
+/// Contents of the sheets.
 #[component]
 fn Wanted() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -321,7 +321,7 @@ fn Sketches() -> impl IntoView {
     view! { <div>{rows}</div> }
 }
 
-/// What the rulers measure, and what follows.
+/// Measured lengths of the rulers, and the derived scales.
 #[component]
 fn Ruler() -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -3,15 +3,15 @@
 use leptos::html::Input;
 use leptos::prelude::*;
 
+use super::components::icon::{Glyph, Icon};
 use super::estimated::times;
-use super::icon::{Glyph, Icon};
 use super::strip::Thumbnail;
 use crate::browser::{event, page};
 use crate::format;
 use crate::i18n::{language, text};
 use crate::store::Desk;
 use crate::store::calls::CardOutcome;
-use crate::store::keeping::{Kept, uncopied_words, unkept_words};
+use crate::store::persistence::{Kept, uncopied_words, unkept_words};
 use crate::store::shelf::Shelved;
 
 /// The list, where there is anything in it.
@@ -21,9 +21,9 @@ pub fn Projects() -> impl IntoView {
     desk.read_shelf();
     // The list is read again now and then: what is open in it stays open.
     let (menu, renaming) = (RwSignal::new(None), RwSignal::new(None));
-    let count = Memo::new(move |_| desk.shelf.with(|all| all.as_ref().map_or(0, Vec::len)));
+    let count = Memo::new(move |_| desk.shelf.projects.with(|all| all.as_ref().map_or(0, Vec::len)));
     let rows = move || {
-        let all = desk.shelf.get().unwrap_or_default();
+        let all = desk.shelf.projects.get().unwrap_or_default();
         all.into_iter().enumerate().map(|(i, project)| (project, i == 0)).collect::<Vec<_>>()
     };
     view! {
@@ -43,8 +43,8 @@ pub fn Projects() -> impl IntoView {
                         <td></td>
                     </tr></thead>
                     <tbody>
-                        // A row that says the same stays as it is: a click that began on it ends on it.
-                        <For each=rows key=|(project, first)| (said(project), *first) let((project, first))>
+                        // An unchanged row keeps its element, so that a click that began on it also ends on it.
+                        <For each=rows key=|(project, first)| (row_key(project), *first) let((project, first))>
                             <ProjectRow project first menu renaming/>
                         </For>
                     </tbody>
@@ -56,8 +56,8 @@ pub fn Projects() -> impl IntoView {
     }
 }
 
-/// Everything that a row says of a project.
-fn said(project: &Shelved) -> String {
+/// Contents of the row of a project.
+fn row_key(project: &Shelved) -> String {
     let Shelved { id, bytes, card, small, unreadable, damaged } = project;
     format!("{id} {bytes} {} {unreadable} {damaged} {card:?}", small.is_some())
 }
@@ -68,8 +68,8 @@ fn Bin() -> impl IntoView {
     let desk = expect_context::<Desk>();
     // The one that was deleted just now has a notice of its own.
     let rest = move || {
-        let last = desk.deleted.get().map(|(id, _)| id);
-        desk.bin.get().into_iter().filter(|one| Some(&one.id) != last.as_ref()).collect::<Vec<_>>()
+        let last = desk.shelf.deleted.get().map(|(id, _)| id);
+        desk.shelf.bin.get().into_iter().filter(|one| Some(&one.id) != last.as_ref()).collect::<Vec<_>>()
     };
     move || {
         let all = rest();
@@ -134,7 +134,7 @@ fn ProjectRow(
         Some((factor, px)) => format!("{}: {}", text::errors_estimated(), times(factor, None, Some(px))),
         None => text::errors_estimated().to_owned(),
     };
-    let busy = move || desk.job.with(Option::is_some);
+    let busy = move || desk.tasks.job.with(Option::is_some);
     view! {
         <tr data-project=key.get_value()>
             <td class="cover">
@@ -190,12 +190,12 @@ fn ProjectRow(
     }
 }
 
-/// What has to be said of the storage as long as it is so: another window, a project deleted just now.
+/// Messages about the storage that stay while their cause exists: another window, a project deleted just now.
 #[component]
 pub fn StorageNotices() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let follows = Memo::new(move |_| desk.kept.with(|kept| *kept == Kept::Following));
-    let lasts = Memo::new(move |_| desk.lasts());
+    let follows = Memo::new(move |_| desk.persistence.kept.with(|kept| *kept == Kept::Following));
+    let slow_task = Memo::new(move |_| desk.slow_task());
     view! {
         <Show when=move || follows.get()>
             <div class="notice warning" role="status">
@@ -204,31 +204,31 @@ pub fn StorageNotices() -> impl IntoView {
                 <button class="button small primary" on:click=move |_| desk.take_over()>{text::take_over}</button>
             </div>
         </Show>
-        <Show when=move || desk.outdated.get()>
+        <Show when=move || desk.connection.outdated.get()>
             <div class="notice warning" role="alert">
                 <Glyph icon=Icon::Warning/>
                 <p>{text::another_build}</p>
                 <button class="button small primary" on:click=move |_| page::reload()>{text::reload_page}</button>
             </div>
         </Show>
-        <Show when=move || desk.update.get()>
+        <Show when=move || desk.connection.update.get()>
             <div class="notice" role="status">
                 <Glyph icon=Icon::Check/>
                 <p>{text::update_ready}</p>
-                <button class="button small primary" disabled=move || desk.job.with(Option::is_some)
+                <button class="button small primary" disabled=move || desk.tasks.job.with(Option::is_some)
                     on:click=move |_| page::take_update()>{text::take_update}</button>
-                <button class="icon-button" aria-label=text::dismiss on:click=move |_| desk.update.set(false)>
+                <button class="icon-button" aria-label=text::dismiss on:click=move |_| desk.connection.update.set(false)>
                     <Glyph icon=Icon::Cross size=14/>
                 </button>
             </div>
         </Show>
-        {move || lasts.get().map(|words| view! {
-            <div class="notice lasting" role="status">
+        {move || slow_task.get().map(|words| view! {
+            <div class="notice background-task" role="status">
                 <p>{words}</p>
-                <button class="button small" on:click=move |_| desk.stop_lasting()>{text::cancel}</button>
+                <button class="button small" on:click=move |_| desk.cancel_slow_tasks()>{text::cancel}</button>
             </div>
         })}
-        {move || desk.deleted.get().map(|(_, name)| view! {
+        {move || desk.shelf.deleted.get().map(|(_, name)| view! {
             <div class="notice" role="status">
                 <Glyph icon=Icon::Check/>
                 <p>{move || text::deleted(&name)}</p>
@@ -240,8 +240,8 @@ pub fn StorageNotices() -> impl IntoView {
 
 /// How it stands with what is done, in the head.
 pub fn kept_words(desk: Desk) -> String {
-    match desk.kept.get() {
-        Kept::At(_) if desk.to_copy.get() > 0 => text::copying_photos(desk.to_copy.get()),
+    match desk.persistence.kept.get() {
+        Kept::At(_) if desk.persistence.to_copy.get() > 0 => text::copying_photos(desk.persistence.to_copy.get()),
         Kept::At(clock) if clock.is_empty() => text::not_saved().to_owned(),
         Kept::At(clock) => match desk.not_copied() {
             Some((missed, _)) => text::saved_without_photos(clock, missed),
@@ -250,7 +250,7 @@ pub fn kept_words(desk: Desk) -> String {
         Kept::Writing => text::writing().to_owned(),
         Kept::Failed(..) => text::not_written().to_owned(),
         Kept::Following => text::following().to_owned(),
-        Kept::Starting | Kept::Nowhere => match desk.saved.get() {
+        Kept::Starting | Kept::Nowhere => match desk.persistence.saved.get() {
             Some((clock, _)) if desk.unsaved() => text::changed_after(clock),
             Some((clock, _)) => text::saved_at(clock),
             None => text::not_saved().to_owned(),
@@ -262,26 +262,31 @@ pub fn kept_words(desk: Desk) -> String {
 #[component]
 pub fn StorageLine() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let words = move || match desk.kept.get() {
+    let words = move || match desk.persistence.kept.get() {
         Kept::Starting => String::new(),
         Kept::Nowhere => text::keeps_nothing().to_owned(),
         Kept::Failed(name, detail) => unkept_words(&name, &detail),
-        _ => match (desk.not_copied(), desk.space.get()) {
+        _ => match (desk.not_copied(), desk.persistence.space.get()) {
             (Some((missed, why)), _) => uncopied_words(missed, &why),
             (None, Some((used, all))) => {
-                let lasts = if desk.persistent.get() { text::lasts() } else { text::may_be_cleared() };
-                let network =
-                    if desk.needs_network.get() { format!(" · {}", text::needs_network()) } else { String::new() };
+                let lasts = if desk.persistence.persistent.get() { text::lasts() } else { text::may_be_cleared() };
+                let network = if desk.connection.needs_network.get() {
+                    format!(" · {}", text::needs_network())
+                } else {
+                    String::new()
+                };
                 format!("{} · {lasts}{network}", text::space_used(bytes_words(used), bytes_words(all)))
             }
-            (None, None) if desk.needs_network.get() => text::needs_network().to_owned(),
+            (None, None) if desk.connection.needs_network.get() => text::needs_network().to_owned(),
             (None, None) => String::new(),
         },
     };
-    let alarm =
-        move || desk.kept.with(|kept| matches!(kept, Kept::Nowhere | Kept::Failed(..))) || desk.not_copied().is_some();
+    let alarm = move || {
+        desk.persistence.kept.with(|kept| matches!(kept, Kept::Nowhere | Kept::Failed(..)))
+            || desk.not_copied().is_some()
+    };
     view! {
-        <Show when=move || desk.offline.get()><div class="offline"><b>{move || if desk.needs_network.get() { text::no_network_nor_copy() } else { text::no_network() }}</b></div></Show>
+        <Show when=move || desk.connection.offline.get()><div class="offline"><b>{move || if desk.connection.needs_network.get() { text::no_network_nor_copy() } else { text::no_network() }}</b></div></Show>
         <div class="storage" class:warn=alarm>{words}</div>
     }
 }

@@ -82,7 +82,7 @@ pub fn QuestionList() -> impl IntoView {
                             None => text::which_is_this().to_owned(),
                         };
                         let why = reason(&q);
-                        let chosen = { let q = q.clone(); move || desk.question.with(|now| now.as_ref() == Some(&q)) };
+                        let chosen = { let q = q.clone(); move || desk.measuring.question.with(|now| now.as_ref() == Some(&q)) };
                         view! {
                             <li class:chosen=chosen><button class="link" on:click=move |_| desk.ask_question(q.clone())>{words}</button> <span>{why}</span></li>
                         }

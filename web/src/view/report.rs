@@ -1,19 +1,20 @@
-//! Step 7: the report as it is printed, what it says and which sections it has.
+//! Step 7: the report as it is printed, its texts and its sections.
 
 use leptos::html::Div;
 use leptos::prelude::*;
 use sightline::project::{Paper, ReportSettings, Section};
 
-use super::field::Field;
-use super::icon::{Glyph, Icon};
-use super::results::{NoResult, OutOfDate};
-use super::shell::TitleBar;
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
 use crate::browser::{event, file, paper};
 use crate::edit::report::switch;
 use crate::format;
 use crate::i18n::{Language, Text, object, text};
 use crate::store::Desk;
 use crate::store::report::report_language;
+use crate::view::components::no_result::NoResult;
+use crate::view::components::no_result::OutOfDate;
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Report() -> impl IntoView {
@@ -42,7 +43,7 @@ fn Current() -> impl IntoView {
     });
     on_cleanup(paper::without_page_style);
     let shown = move || desk.reports.made.with(Option::is_some);
-    // What is printed says what the fields say: not while the pages are made anew.
+    // The print must agree with the fields, so it waits until the pages are made anew.
     let ready = move || shown() && !desk.reports.being_made.get();
     view! {
         <TitleBar title=text::report sentence=Signal::derive(|| text::report_sentence().to_owned())>
@@ -146,7 +147,7 @@ fn Pages() -> impl IntoView {
     }
 }
 
-/// What stands on the first page.
+/// Contents of the first page.
 #[component]
 fn Cover() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -186,7 +187,7 @@ fn Cover() -> impl IntoView {
     }
 }
 
-/// What the statements of accuracy are made with.
+/// Inputs of the accuracy statements.
 #[component]
 fn Statements() -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -2,25 +2,25 @@
 
 mod cameras;
 mod compared;
-pub mod drawings;
+mod drawings;
 mod given;
 mod meanings;
 mod tables;
-pub mod units;
 
+use crate::view::components::no_result::{NoResult, OutOfDate};
+use crate::view::components::units::{length_unit, pixel_of, shown_as};
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
 use super::advice::{Contradictions, VerdictLine};
-use super::changes::change_words;
+use super::components::icon::{Glyph, Icon};
 use super::estimated::estimated;
-use super::icon::{Glyph, Icon};
 use super::left_out::NotUsed;
 use super::object::Overview;
 use super::plots::{ResidualPlot, Vector};
-use super::shell::export_tables;
+
 use crate::browser::page;
 use crate::format;
 use crate::i18n::{comparing, first, inside, interchange, monitoring, object, text};
@@ -28,14 +28,11 @@ use crate::store::inside::Network;
 use crate::store::{Desk, Step};
 
 use cameras::Cameras;
-pub use cameras::parameter_cells;
 use compared::Compared;
 use drawings::Drawings;
 use given::GivenTable;
-pub use given::{given_kind, given_name};
 use meanings::{Meanings, Statistic};
 use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
-use units::{length_unit, pixel_of, shown_as};
 
 #[component]
 pub fn Results() -> impl IntoView {
@@ -50,114 +47,74 @@ pub fn Results() -> impl IntoView {
     }
 }
 
-#[component]
-pub(super) fn NoResult() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    view! {
-        <main class="out-of-date">
-            <h1>{text::no_result}</h1>
-            <p>{text::no_result_body}</p>
-            <button class="button primary" on:click=move |_| desk.go(Step::Adjust)>{text::adjustment} <Glyph icon=Icon::Arrow/></button>
-        </main>
-    }
-}
-
-#[component]
-pub(super) fn OutOfDate() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let changes = move || {
-        let changes = desk.changes_since_result();
-        let words = changes.iter().rev().take(4).map(change_words).collect::<Vec<_>>();
-        words.join("; ")
-    };
-    view! {
-        <main class="out-of-date">
-            <Glyph icon=Icon::Clock size=24/>
-            <h1>{text::results_stale}</h1>
-            <p>{text::changed_since} " " {changes} ". " {text::no_number_until}</p>
-            <div class="row">
-                <button class="button primary" on:click=move |_| desk.adjust()>{text::adjust_again}</button>
-                <button class="button" on:click=move |_| desk.undo()><Glyph icon=Icon::Undo/> {text::undo}</button>
-            </div>
-        </main>
-    }
-}
-
-/// Why there are no numbers: no result yet, or an earlier one.
-#[component]
-pub fn NoNumbers() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let any = Memo::new(move |_| desk.document.with(|d| d.result.is_some()));
-    view! {
-        <Show when=move || any.get() fallback=|| view! { <NoResult/> }><OutOfDate/></Show>
-    }
-}
-
 /// Reads the present adjustment; components below exist only while there is one.
 fn read<T: Default>(desk: Desk, read: impl FnOnce(&Adjustment, &Project) -> T) -> T {
     desk.document.with(|d| d.current().map(|r| read(&r.adjustment, &r.input)).unwrap_or_default())
 }
 
-/// What of the result is shown.
+/// Tabs of the results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shown {
+enum ResultsTab {
     Tables,
     Plots,
     Compared,
     Meanings,
 }
 
+/// Parts of the results that are drawn one after the other.
+const PARTS: usize = 6;
+
 #[component]
 fn Current() -> impl IntoView {
-    let shown = RwSignal::new(Shown::Tables);
+    let shown = RwSignal::new(ResultsTab::Tables);
     let explained = RwSignal::new(None::<Statistic>);
     let desk = expect_context::<Desk>();
     let compared = Memo::new(move |_| desk.result_before().is_some());
-    // Every table has a task of the page of its own: each is laid out as it comes.
-    let tables = RwSignal::new(0);
+    // Every part has a task of the page of its own: each is laid out as it comes.
+    let parts = RwSignal::new(0);
     spawn_local(async move {
-        for there in 1..=3 {
+        for there in 1..=PARTS {
             page::breathe().await;
-            tables.try_set(there);
+            parts.try_set(there);
         }
     });
-    let there = move |table: i32| move || tables.get() >= table;
-    let views: [(Shown, crate::i18n::Text); 4] = [
-        (Shown::Tables, text::tables),
-        (Shown::Plots, text::plots),
-        (Shown::Compared, comparing::beside_before),
-        (Shown::Meanings, text::meanings),
+    let there = move |part: usize| move || parts.get() >= part;
+    let views: [(ResultsTab, crate::i18n::Text); 4] = [
+        (ResultsTab::Tables, text::tables),
+        (ResultsTab::Plots, text::plots),
+        (ResultsTab::Compared, comparing::beside_before),
+        (ResultsTab::Meanings, text::meanings),
     ];
     view! {
         <VerdictLine/>
         <Hero explain=Callback::new(move |statistic| {
             explained.set(Some(statistic));
-            shown.set(Shown::Meanings);
+            shown.set(ResultsTab::Meanings);
         })/>
         <Contradictions/>
         <NotUsed/>
         <nav class="result-views" aria-label=text::results>
             {views.map(|(one, name)| view! {
-                <Show when=move || one != Shown::Compared || compared.get()>
+                <Show when=move || one != ResultsTab::Compared || compared.get()>
                     <button class="text-button" data-shown=format!("{one:?}").to_lowercase() aria-pressed=move || (shown.get() == one).to_string()
                         on:click=move |_| shown.set(one)>{name}</button>
                 </Show>
             }).collect_view()}
         </nav>
         {move || match shown.get() {
-            Shown::Tables => view! {
-                <main class="results">
-                    <section class="o"><ObjectSeen/></section>
-                    <section class="a1"><Residuals/></section>
-                    <section class="a2"><Show when=there(2)><PhotosTable/></Show></section>
-                    <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
-                    <section class="c1"><Show when=there(1)><PointsTable/></Show></section>
-                    <section class="c2"><Show when=there(3)><Worst/></Show></section>
+            ResultsTab::Tables => view! {
+                <main class="results" data-whole=move || there(PARTS)().then_some("")>
+                    <section class="o"><Show when=there(2)><ObjectSeen/></Show></section>
+                    <section class="a1"><Show when=there(1)><Residuals/></Show></section>
+                    <section class="a2"><Show when=there(5)><PhotosTable/></Show></section>
+                    <section class="b scroll" tabindex="0" aria-label=text::cameras><Show when=there(3)><Cameras/><CheckPoints/><GivenTable/></Show></section>
+                    <section class="c1"><Show when=there(4)><PointsTable/></Show></section>
+                    <section class="c2"><Show when=there(PARTS)><Worst/></Show></section>
                 </main>
             }.into_any(),
-            Shown::Plots => view! { <Drawings/> }.into_any(),
-            Shown::Compared => view! { <Compared/> }.into_any(),
-            Shown::Meanings => view! { <Meanings chosen=explained/> }.into_any(),
+            ResultsTab::Plots => view! { <Drawings/> }.into_any(),
+            ResultsTab::Compared => view! { <Compared/> }.into_any(),
+            ResultsTab::Meanings => view! { <Meanings chosen=explained/> }.into_any(),
         }}
     }
 }
@@ -222,7 +179,7 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
             })}
             <div class="hero-action"><EpochActions/>
                 <button class="button" data-action="inside" on:click=move |_| desk.open_inside(Network::Document)>{inside::inside}</button>
-                <button class="button" on:click=move |_| export_tables(desk)><Glyph icon=Icon::Save/> {text::export_csv}</button>
+                <button class="button" on:click=move |_| desk.export("csv")><Glyph icon=Icon::Save/> {text::export_csv}</button>
                 <button class="button" data-open="files" title=interchange::files_for_others
                     on:click=move |_| desk.go(Step::Files)>{interchange::files}</button>
                 <button class="button primary" on:click=move |_| desk.go(Step::Report)>{text::write_report} <Glyph icon=Icon::Arrow/></button>
@@ -348,7 +305,7 @@ fn Residuals() -> impl IntoView {
     }
 }
 
-/// What gives the object its scale and place, for the step row: its control points, or else check points, or else distances.
+/// Source of scale and position of the object, for the step row: its control points, or else check points, or else distances.
 pub fn control_figure(project: &Project) -> String {
     let of = |role| project.points.iter().filter(|p| p.role == role).count();
     let kinds = [

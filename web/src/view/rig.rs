@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use sightline::project::Rig;
 
-use super::field::Field;
+use super::components::field::Field;
 use crate::edit::rig;
 use crate::format;
 use crate::i18n::{mounted as words, text};
@@ -81,7 +81,7 @@ fn Together() -> impl IntoView {
     }
 }
 
-/// What the last adjustment found of it.
+/// Its result in the last adjustment.
 #[component]
 fn RelativePoses() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -106,11 +106,21 @@ fn RelativePoses() -> impl IntoView {
             None => format!("{said} {}", words::one_exposure()),
         }
     };
+    let outlier = |off: &sightline::adjustment::RelativeDeviation, unit: &str| {
+        let length = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+        let position = format!("{} {unit}", format::fixed(length(off.position), 3));
+        let rotation = format!("{} mrad", format::fixed(1000.0 * length(off.rotation), 3));
+        let [first, own] = &off.photos;
+        words::outlier(first, own, position, rotation)
+    };
     move || {
         let (poses, unit) = found.get()?;
         Some(view! {
             <ul class="note" data-result="rig">
                 {poses.iter().map(|pose| view! { <li>{sentence(pose, &unit)}</li> }).collect_view()}
+                {poses.iter().flat_map(|pose| &pose.exposures).filter(|off| off.outlier).map(|off| {
+                    view! { <li class="warn" data-outlier=off.exposure.to_string()>{outlier(off, &unit)}</li> }
+                }).collect_view()}
             </ul>
         })
     }

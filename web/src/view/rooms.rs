@@ -10,8 +10,8 @@ use leptos::task::spawn_local;
 
 use super::start::Start;
 use super::{
-    adjust, calibrating, control, equipment, experiments, files, identities, import, inside, monitoring, object,
-    photos, planning, printing, report, results, tables, targets,
+    adjust, calibrating, control, distance_sheet, equipment, experiments, files, identities, import, inside,
+    monitoring, object, photos, planning, printing, report, results, tables, targets,
 };
 use crate::browser::worker;
 use crate::i18n::text;
@@ -49,14 +49,18 @@ part! { steps, fn import_over() -> AnyView, {
     view! { <import::ImportOver/> }.into_any()
 } }
 
-/// A part that comes after the first.
+part! { steps, fn distances_over() -> AnyView, {
+    view! { <distance_sheet::DistancesOver/> }.into_any()
+} }
+
+/// A part of the page's module that is loaded after the first.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
+enum ModulePart {
     Steps,
     Beside,
 }
 
-impl Part {
+impl ModulePart {
     /// Of a step's room; the start page is there from the beginning.
     fn of(step: Step) -> Option<Self> {
         match step {
@@ -79,9 +83,9 @@ impl Part {
     }
 }
 
-/// How far a part is.
+/// Whether a part has been loaded.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
+enum LoadState {
     Unasked,
     Coming,
     There,
@@ -92,62 +96,72 @@ enum State {
 #[component]
 pub fn Rooms() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let states = [RwSignal::new(State::Unasked), RwSignal::new(State::Unasked)];
-    let ask = move |part: Part| {
+    let states = [RwSignal::new(LoadState::Unasked), RwSignal::new(LoadState::Unasked)];
+    let ask = move |part: ModulePart| {
         let state = states[part as usize];
-        if matches!(state.get_untracked(), State::Coming | State::There) {
+        if matches!(state.get_untracked(), LoadState::Coming | LoadState::There) {
             return;
         }
-        state.set(State::Coming);
+        state.set(LoadState::Coming);
         spawn_local(async move {
             let came = match part {
-                Part::Steps => fetch_steps().await,
-                Part::Beside => fetch_beside().await,
+                ModulePart::Steps => fetch_steps().await,
+                ModulePart::Beside => fetch_beside().await,
             };
-            state.set(if came.is_ok() { State::There } else { State::Failed });
+            state.set(if came.is_ok() { LoadState::There } else { LoadState::Failed });
             if came.is_err() {
                 desk.look_for_another_build();
             }
         });
     };
-    let wanted = Memo::new(move |_| Part::of(desk.step.get()));
+    let wanted = Memo::new(move |_| ModulePart::of(desk.step.get()));
     // The next that is needed, while nothing is done yet; and when all else is there, the rest: the page goes on without a network.
-    ask(Part::Steps);
+    ask(ModulePart::Steps);
     spawn_local(async move {
         worker::engine_is_there().await;
-        ask(Part::Beside);
+        ask(ModulePart::Beside);
     });
     Effect::new(move || {
         if let Some(part) = wanted.get() {
             ask(part);
         }
     });
-    // A list of points is answered on whatever step it came to; on that of control points it stands among the tables.
+    // A list is answered on whatever step it came to; on that of control points it stands among the tables.
     let waits = Memo::new(move |_| {
-        let step = desk.step.get();
-        step != Step::Control && desk.pasted.with(|pasted| pasted.as_ref().is_some_and(|pasted| pasted.at == step))
+        let here = desk.step.get();
+        let at = |step: Option<Step>| here != Step::Control && step == Some(here);
+        [
+            at(desk.intake.pasted.with(|p| p.as_ref().map(|p| p.at))),
+            at(desk.intake.distances.with(|d| d.as_ref().map(|d| d.at))),
+        ]
     });
-    let over =
-        move || (waits.get() && states[Part::Steps as usize].get() == State::There).then(|| at_once(import_over()));
+    let over = move || {
+        let there = states[ModulePart::Steps as usize].get() == LoadState::There;
+        let [points, distances] = waits.get();
+        there.then(|| (points.then(|| at_once(import_over())), distances.then(|| at_once(distances_over()))))
+    };
+    Effect::new(move || desk.show_next_list());
     let room = move || {
         let step = desk.step.get();
-        if desk.returning.with(Option::is_some) {
+        if desk.persistence.returning.with(Option::is_some) {
             return view! { <main class="absent" aria-busy="true"></main> }.into_any();
         }
-        let Some(part) = Part::of(step) else { return view! { <Start/> }.into_any() };
+        let Some(part) = ModulePart::of(step) else { return view! { <Start/> }.into_any() };
         match states[part as usize].get() {
-            State::There => match part {
-                Part::Steps => at_once(on_the_path(step)),
-                Part::Beside => at_once(beside_the_path(step)),
+            LoadState::There => match part {
+                ModulePart::Steps => at_once(on_the_path(step)),
+                ModulePart::Beside => at_once(beside_the_path(step)),
             },
-            State::Failed => view! {
+            LoadState::Failed => view! {
                 <main class="absent" role="alert">
                     <p>{text::part_did_not_come}</p>
                     <button class="button primary" on:click=move |_| ask(part)>{text::try_again}</button>
                 </main>
             }
             .into_any(),
-            State::Unasked | State::Coming => view! { <main class="absent" aria-busy="true"></main> }.into_any(),
+            LoadState::Unasked | LoadState::Coming => {
+                view! { <main class="absent" aria-busy="true"></main> }.into_any()
+            }
         }
     };
     view! { {room}{over} }

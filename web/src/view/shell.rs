@@ -1,21 +1,22 @@
 //! The one window: head with the steps, what the step shows, foot; files may be dropped anywhere.
 
+use crate::view::components::title::step_label;
 use leptos::html::Button;
 use leptos::prelude::*;
 
-use super::changes::change_words;
-use super::icon::{Glyph, Icon};
+use super::components::changes::change_words;
+use super::components::icon::{Glyph, Icon};
+use super::components::keys;
 use super::menu::{FileMenu, MenuGround};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
-use super::{help, keys, rooms};
-use crate::browser::{event, file, page};
-use crate::i18n::{self, experiments as words, monitoring, planning as plan_words, printing as before, text};
-use crate::store::document::Document;
+use super::{help, rooms};
+use crate::browser::{event, page};
+use crate::document::Document;
+use crate::i18n::{self, text};
 use crate::store::experiments::from_hash;
-pub use crate::store::intake::problem_sentence;
-use crate::store::keeping::Kept;
-use crate::store::{Asking, Desk, Job, JobKind, Kind, Menu, Step, Theme};
+use crate::store::persistence::Kept;
+use crate::store::{Asking, Desk, Kind, Menu, Step, Theme};
 use crate::{format, i18n::language};
 
 /// The desk.
@@ -23,7 +24,7 @@ use crate::{format, i18n::language};
 pub fn App() -> impl IntoView {
     let desk = Desk::new();
     provide_context(desk);
-    Effect::new(move || page::set_root_attribute("data-theme", desk.theme.get().name()));
+    Effect::new(move || page::set_root_attribute("data-theme", desk.window.theme.get().name()));
     Effect::new(move || {
         let name = desk.document.with(|d| d.project.name.clone());
         page::set_title(&if name.is_empty() { "Sightline".to_owned() } else { format!("{name} – Sightline") });
@@ -31,10 +32,10 @@ pub fn App() -> impl IntoView {
     Effect::new(move || desk.drop_stale_notice());
     desk.start_keeping();
     desk.start_predicting();
-    page::listen_to_network(move || desk.offline.set(page::is_offline()));
+    page::listen_to_network(move || desk.connection.offline.set(page::is_offline()));
     page::listen_to_start(move |told| match told {
-        page::Told::Update => desk.update.set(true),
-        page::Told::Network => desk.needs_network.set(true),
+        page::Told::Update => desk.connection.update.set(true),
+        page::Told::Network => desk.connection.needs_network.set(true),
         page::Told::Files(files) => desk.take_dropped(files),
     });
     event::listen_to_hash(move || desk.follow_hash());
@@ -78,13 +79,13 @@ fn Head() -> impl IntoView {
     let name = Memo::new(move |_| desk.document.with(|d| d.project.name.clone()));
     let empty = Memo::new(move |_| desk.document.with(Document::is_empty));
     let state = move || if empty.get() { text::no_project().to_owned() } else { kept_words(desk) };
-    let theme = move || match desk.theme.get() {
+    let theme = move || match desk.window.theme.get() {
         Theme::Light => text::theme_light(),
         Theme::Dark => text::theme_dark(),
         Theme::Sun => text::theme_sun(),
     };
-    // On a phone what is not needed all the time stands in a menu.
-    let more = Memo::new(move |_| desk.menu.get() == Some(Menu::More));
+    // On a phone rarely needed items are in a menu.
+    let more = Memo::new(move |_| desk.window.menu.get() == Some(Menu::More));
     let undo_label = move || desk.undoable().map_or(text::undo().to_owned(), |c| text::undo_this(change_words(&c)));
     let redo_label = move || desk.redoable().map_or(text::redo().to_owned(), |c| text::redo_this(change_words(&c)));
     view! {
@@ -100,7 +101,7 @@ fn Head() -> impl IntoView {
                     <input class="project-name" type="text" aria-label=text::project_name placeholder=text::project_name
                         prop:value=name on:change=move |e| desk.rename_project(&event::value(&e))/>
                 </Show>
-                <span class:bad=move || desk.kept.with(|kept| matches!(kept, Kept::Failed(..)))>{state}</span>
+                <span class:bad=move || desk.persistence.kept.with(|kept| matches!(kept, Kept::Failed(..)))>{state}</span>
             </div>
             <nav aria-label=text::steps>
                 <ol class="steps">
@@ -127,17 +128,17 @@ fn Head() -> impl IntoView {
                     <Glyph icon=Icon::Redo/>
                 </button>
                 <button class="icon-button menu" aria-label=text::more_actions aria-expanded=move || more.get().to_string()
-                    on:click=move |_| desk.menu.update(|menu| *menu = if menu.is_some() { None } else { Some(Menu::More) })>
+                    on:click=move |_| desk.window.menu.update(|menu| *menu = if menu.is_some() { None } else { Some(Menu::More) })>
                     <Glyph icon=Icon::More/>
                 </button>
-                <div class="more" class:open=more on:click=move |_| desk.menu.update(|menu| { menu.take_if(|menu| *menu == Menu::More); })>
+                <div class="more" class:open=more on:click=move |_| desk.window.menu.update(|menu| { menu.take_if(|menu| *menu == Menu::More); })>
                 <FileMenu/>
                 <Show when=move || !empty.get()>
                     <button class="text-button to-tables" aria-current=move || (desk.step.get() == Step::Tables).then_some("page")
                         on:click=move |_| desk.go(Step::Tables)>{text::tables}</button>
                 </Show>
                 <span class="rule"></span>
-                <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span>"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
+                <button class="text-button" title=text::keys_title on:click=move |_| desk.window.help.set(true)><span>"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
                 <button
                     class="text-button"
                     aria-label=move || format!("{}, {}", language().other().name(), text::switch_language())
@@ -148,7 +149,7 @@ fn Head() -> impl IntoView {
                 <button
                     class="text-button"
                     aria-label=move || format!("{}, {}", theme(), text::switch_theme())
-                    on:click=move |_| desk.set_theme(desk.theme.get_untracked().next())
+                    on:click=move |_| desk.set_theme(desk.window.theme.get_untracked().next())
                 >
                     {theme}
                 </button>
@@ -209,127 +210,20 @@ fn StepButton(step: Step, number: usize) -> impl IntoView {
     }
 }
 
-pub fn step_label(step: Step) -> &'static str {
-    match step {
-        Step::Start => text::start_page(),
-        Step::Photos => text::photos(),
-        Step::Targets => text::targets(),
-        Step::Identities => text::identities(),
-        Step::Control => text::control_and_scale(),
-        Step::Adjust => text::adjustment(),
-        Step::Results => text::results(),
-        Step::Object => i18n::object::object(),
-        Step::Report => text::report(),
-        Step::Experiments => words::experiments(),
-        Step::Tables => text::tables(),
-        Step::Plan => plan_words::plan(),
-        Step::Print => before::targets_to_print(),
-        Step::Equipment => i18n::equipment::equipment(),
-        Step::Monitoring => monitoring::monitoring(),
-        Step::Calibrate => i18n::calibrating::calibrate(),
-        Step::Files => i18n::interchange::files_for_others(),
-        Step::Inside => i18n::inside::inside(),
-    }
-}
-
-/// The title bar of a step with its sentence and the one action slot: progress while there is any, else the action.
-#[component]
-pub fn TitleBar(
-    title: fn() -> &'static str,
-    #[prop(into)] sentence: Signal<String>,
-    #[prop(optional)] children: Option<Children>,
-) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let busy = Memo::new(move |_| desk.job.with(Option::is_some));
-    let action = children.map(|children| children());
-    let beside = Memo::new(move |_| !Step::ROW.contains(&desk.step.get()));
-    // A step of the path needs a project, which may have gone meanwhile.
-    let back = move || if desk.document.with(Document::is_empty) { Step::Start } else { desk.came_from.get() };
-    view! {
-        <div class="bar" role="region" aria-label=title>
-            <Show when=move || beside.get()>
-                <button class="link back" data-action="back" on:click=move |_| desk.go(back())>"← " {move || step_label(back())}</button>
-            </Show>
-            <h1>{title}</h1>
-            <p>{move || sentence.get()}</p>
-            <div class="slot" class:busy=busy>
-                <div class="action">{action}</div>
-                <Progress/>
-            </div>
-        </div>
-    }
-}
-
-#[component]
-pub fn Progress() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let now = move || desk.job.get();
-    let percent = move || now().map_or(0.0, |job| 100.0 * job.done as f64 / job.total.max(1) as f64);
-    let words = move || now().map_or("", |job| job_label(&job));
-    let counted = move || now().filter(|job| job.total > 1).map(|job| job_count(desk, &job));
-    view! {
-        <Show when=move || desk.job.with(Option::is_some)>
-            <div
-                class="progress"
-                role="progressbar"
-                aria-label=words
-                aria-valuemin="0"
-                aria-valuemax="100"
-                aria-valuenow=move || format!("{:.0}", percent())
-            >
-                <span>{words}</span>
-                <span class="count">{counted}</span>
-                <i style:--done=move || format!("{}%", percent())></i>
-            </div>
-            <button class="button" on:click=move |_| desk.cancel()>{text::cancel}</button>
-        </Show>
-    }
-}
-
-fn job_label(job: &Job) -> &'static str {
-    match job.kind {
-        JobKind::Opening => text::opening_photos(),
-        JobKind::Detecting => text::detecting(),
-        JobKind::Adjusting => text::adjusting(),
-        JobKind::Matching => text::matching(),
-        JobKind::Saving => text::saving(),
-        JobKind::OpeningProject => text::opening_project(),
-        JobKind::Reading => i18n::interchange::reading(),
-        JobKind::Sample => text::opening_sample(),
-        JobKind::Experiment => words::running(),
-        JobKind::Reporting => text::writing_report(),
-        JobKind::Planning => plan_words::making(),
-        JobKind::Comparing => monitoring::comparing(),
-    }
-}
-
-/// How far the work is, in its own words.
-fn job_count(desk: Desk, job: &Job) -> String {
-    let (done, total) = (format::count(job.done), format::count(job.total));
-    match job.kind {
-        JobKind::Detecting => {
-            let targets = desk.document.with(|d| d.detections.values().map(|d| d.targets.len()).sum());
-            text::photos_and_targets(done, total, format::count(targets))
-        }
-        JobKind::Adjusting => text::iteration_of(done, total),
-        _ => text::done_of(done, total),
-    }
-}
-
-/// What there is to tell, in a row of its own, until it is dismissed.
+/// Messages, in a row of their own, until it is dismissed.
 #[component]
 fn NoticeBar() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
         <div class="messages">
         <div class="notices" aria-live="polite">
-            {move || desk.notice.get().map(|notice| {
+            {move || desk.messages.notice.get().map(|notice| {
                 let icon = if notice.warning { Icon::Warning } else { Icon::Check };
                 view! {
                     <div class="notice" class:warning=notice.warning role=if notice.warning { "alert" } else { "status" }>
                         <Glyph icon/>
                         <p>{move || (notice.text)()}</p>
-                        <button class="icon-button" aria-label=text::dismiss on:click=move |_| desk.notice.set(None)>
+                        <button class="icon-button" aria-label=text::dismiss on:click=move |_| desk.messages.notice.set(None)>
                             <Glyph icon=Icon::Cross size=14/>
                         </button>
                     </div>
@@ -337,7 +231,7 @@ fn NoticeBar() -> impl IntoView {
             })}
         </div>
         <StorageNotices/>
-        {move || desk.asking.get().map(|asking| view! { <Question asking/> })}
+        {move || desk.messages.asking.get().map(|asking| view! { <Question asking/> })}
         </div>
     }
 }
@@ -359,7 +253,7 @@ fn Question(asking: Asking) -> impl IntoView {
             let primary = node.is_some();
             view! {
                 <button class="button small" class:primary=primary node_ref=node.unwrap_or_default() on:click=move |_| {
-                    desk.asking.set(None);
+                    desk.messages.asking.set(None);
                     take();
                 }>{words}</button>
             }
@@ -371,7 +265,7 @@ fn Question(asking: Asking) -> impl IntoView {
             <Glyph icon=Icon::Warning/>
             <p id="asked">{move || text.with_value(|text| text())}</p>
             {choices}
-            <button class="button small" on:click=move |_| desk.asking.set(None)>{text::cancel}</button>
+            <button class="button small" on:click=move |_| desk.messages.asking.set(None)>{text::cancel}</button>
         </div>
     }
 }
@@ -392,8 +286,9 @@ fn Foot() -> impl IntoView {
     };
     let marked =
         move || Some(desk.marked(Kind::Points).len()).filter(|n| *n > 1).map(|n| text::rows_marked(format::count(n)));
-    let place =
-        move || desk.cursor.get().map(|[u, v]| format!("u {}   v {} px", format::fixed(u, 1), format::fixed(v, 1)));
+    let place = move || {
+        desk.photo_view.cursor.get().map(|[u, v]| format!("u {}   v {} px", format::fixed(u, 1), format::fixed(v, 1)))
+    };
     view! {
         <footer class="foot">
             <div class="chosen">
@@ -414,29 +309,4 @@ fn Foot() -> impl IntoView {
             </div>
         </footer>
     }
-}
-
-/// Hands over the tables of the result.
-pub fn export_tables(desk: Desk) {
-    desk.export("csv");
-}
-
-/// Opens the chooser for a project file, or the text files of plates.
-pub fn choose_project(desk: Desk) {
-    file::choose(
-        ".sightline,.zip,.json,.csv,.txt,.xml,.yml,.yaml,.sfm,.out,.bin,.cameramodel,.nvm,.psz",
-        true,
-        move |files| desk.take_dropped(files),
-    );
-}
-
-/// Opens the chooser for photos.
-pub fn choose_photos(desk: Desk) {
-    file::choose(
-        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.nrw,.cr2,.cr3,.arw,.orf,.rw2,.raf,.pef,.srw,image/*",
-        true,
-        move |files| {
-            desk.take_dropped(files);
-        },
-    );
 }

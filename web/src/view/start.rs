@@ -2,18 +2,20 @@
 
 use leptos::prelude::*;
 
-use super::icon::{Glyph, Icon};
+use super::components::icon::{Glyph, Icon};
 use super::photos::Problems;
 use super::picture::Purpose;
 use super::projects::Projects;
-use super::shell::{Progress, choose_photos, choose_project};
 use crate::i18n::{Text, calibrating, equipment, experiments as words, first, monitoring, planning, printing, text};
 use crate::store::{Desk, Step};
+use crate::view::components::choosing::choose_photos;
+use crate::view::components::choosing::choose_project;
+use crate::view::components::progress::Progress;
 
 #[component]
 pub fn Start() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let busy = move || desk.job.with(Option::is_some);
+    let busy = move || desk.tasks.job.with(Option::is_some);
     view! {
         <main class="start">
             <div class="drop-zone">
@@ -68,7 +70,7 @@ fn Entry(
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <button class=class data-open=open disabled=move || waits && desk.job.with(Option::is_some) on:click=move |_| go(desk)>
+        <button class=class data-open=open disabled=move || waits && desk.tasks.job.with(Option::is_some) on:click=move |_| go(desk)>
             <span>
                 <b>{name}</b>
                 <span>{said}</span>

@@ -6,14 +6,14 @@ use leptos::html::Canvas;
 use leptos::prelude::*;
 use sightline::project::{Camera, Project};
 
-use super::icon::{Glyph, Icon};
-use super::shell::problem_sentence;
-use super::transform::Placement;
+use super::components::icon::{Glyph, Icon};
 use crate::browser::canvas::{SizeWatch, Surface};
 use crate::browser::picture::Picture;
 use crate::format;
 use crate::i18n::text;
+use crate::store::intake::problem_sentence;
 use crate::store::{Desk, Problem};
+use crate::view::components::transform::Placement;
 
 /// A small picture, upright.
 #[component]
@@ -33,7 +33,7 @@ pub fn Thumbnail(picture: Picture, orientation: u8) -> impl IntoView {
     view! { <canvas node_ref=canvas class="thumbnail" class:portrait=w < h style:aspect-ratio=format!("{w} / {h}")></canvas> }
 }
 
-/// What stands for a photo whose file is not here.
+/// Placeholder for a photo whose file is missing.
 #[component]
 pub fn NoThumbnail() -> impl IntoView {
     view! { <span class="thumbnail absent"><Glyph icon=Icon::Warning/></span> }
@@ -115,14 +115,14 @@ fn StripPhoto(id: String, file: String) -> impl IntoView {
         id.with_value(|id| desk.document.with(|d| d.detections.get(id).map(|detection| detection.targets.len())))
     });
     let count = move || found.get().map_or("–".to_owned(), format::count);
-    let small = Memo::new(move |_| desk.files.with(|files| files.get(&id.get_value()).map(|f| f.digest)));
+    let small = Memo::new(move |_| desk.photos.files.with(|files| files.get(&id.get_value()).map(|f| f.digest)));
     let stem = file.rsplit_once('.').map_or(file.clone(), |(stem, _)| stem.to_owned());
     view! {
         <li class:chosen=chosen>
             <button data-photo=id.get_value() aria-pressed=move || chosen.get().to_string() on:click=move |_| desk.select_photo(&id.get_value())>
                 {move || {
                     small.get();
-                    let file = desk.files.with_untracked(|files| files.get(&id.get_value()).cloned());
+                    let file = desk.photos.files.with_untracked(|files| files.get(&id.get_value()).cloned());
                     match file {
                         Some(file) => view! { <Thumbnail picture=file.small orientation=file.info.orientation/> }.into_any(),
                         None => view! { <NoThumbnail/> }.into_any(),

@@ -4,20 +4,21 @@ use leptos::prelude::*;
 use sightline::detection::{Channel, CodeNote, Codes, Detection, Method, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
-use super::apart::ColoursApart;
-use super::field::Field;
-use super::icon::{Glyph, Icon};
+use super::components::field::Field;
+use super::components::icon::{Glyph, Icon};
+use super::lateral_colour::LateralColour;
 use super::loupe::Loupe;
 use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style, half_turn_degrees};
 use super::picking::{Question, chosen_target, pick, spot_mark};
-use super::shell::TitleBar;
 use super::strip::Strip;
 use crate::browser::event;
-use crate::edit::targets::{Rings, candidates};
+use crate::document::rings::Rings;
+use crate::edit::targets::candidates;
 use crate::format;
 use crate::i18n::{Text, errors, first, printing, text};
 use crate::store::{Desk, Step};
+use crate::view::components::title::TitleBar;
 
 #[component]
 pub fn Targets() -> impl IntoView {
@@ -69,7 +70,7 @@ pub fn Targets() -> impl IntoView {
                 <Loupe target=selected/>
                 <TargetDetails/>
                 <PictureNote/>
-                <ColoursApart/>
+                <LateralColour/>
                 <RejectedTable/>
             </aside>
         </main>
@@ -182,7 +183,7 @@ fn FamilyQuestion() -> impl IntoView {
     }
 }
 
-/// What is looked for and how; every default works without tuning.
+/// Options of the detection; the defaults work without tuning.
 #[component]
 fn Options() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -192,7 +193,7 @@ fn Options() -> impl IntoView {
     };
     // an axis ratio of 0.15, the least that is taken, is a view from 81 degrees
     let steepest = move |typed: String| match format::parse(&typed).filter(|degrees| (0.0..=81.0).contains(degrees)) {
-        Some(degrees) => desk.detect_options.update(|o| o.min_axis_ratio = degrees.to_radians().cos()),
+        Some(degrees) => desk.processing.detect_options.update(|o| o.min_axis_ratio = degrees.to_radians().cos()),
         None => desk.warn_here(move || errors::refusal(&typed, text::no_steepest)),
     };
     view! {
@@ -202,8 +203,8 @@ fn Options() -> impl IntoView {
                 (PolarityChoice::Bright, text::polarity_bright),
                 (PolarityChoice::Dark, text::polarity_dark),
             ]
-            get=|desk| desk.detect_options.with(|o| o.polarity)
-            set=|desk, value| desk.detect_options.update(|o| o.polarity = value)/>
+            get=|desk| desk.processing.detect_options.with(|o| o.polarity)
+            set=|desk, value| desk.processing.detect_options.update(|o| o.polarity = value)/>
         <Choice label=text::channel name="channel"
             values=vec![
                 (Channel::Grey, text::channel_grey as Text),
@@ -211,8 +212,8 @@ fn Options() -> impl IntoView {
                 (Channel::Red, text::channel_red),
                 (Channel::Blue, text::channel_blue),
             ]
-            get=|desk| desk.detect_options.with(|o| o.channel)
-            set=|desk, value| desk.detect_options.update(|o| o.channel = value)/>
+            get=|desk| desk.processing.detect_options.with(|o| o.channel)
+            set=|desk, value| desk.processing.detect_options.update(|o| o.channel = value)/>
         <Choice label=text::codes name="codes"
             values=vec![
                 (Codes::Auto, text::codes_auto as Text),
@@ -226,8 +227,8 @@ fn Options() -> impl IntoView {
                 (Codes::Metashape16, || family_words(Family::Metashape16)),
                 (Codes::Metashape20, || family_words(Family::Metashape20)),
             ]
-            get=|desk| desk.detect_options.with(|o| o.codes)
-            set=|desk, value| desk.detect_options.update(|o| o.codes = value)/>
+            get=|desk| desk.processing.detect_options.with(|o| o.codes)
+            set=|desk, value| desk.processing.detect_options.update(|o| o.codes = value)/>
         <Choice label=text::method name="method"
             values=vec![
                 (Method::LeastSquares, text::method_least_squares as Text),
@@ -235,22 +236,22 @@ fn Options() -> impl IntoView {
                 (Method::Intensity, text::method_intensity),
                 (Method::Gradient, text::method_gradient),
             ]
-            get=|desk| desk.detect_options.with(|o| o.method)
-            set=|desk, value| desk.detect_options.update(|o| o.method = value)/>
+            get=|desk| desk.processing.detect_options.with(|o| o.method)
+            set=|desk, value| desk.processing.detect_options.update(|o| o.method = value)/>
         <label class="option">
             <span>{text::diameter} " " <u>"px"</u></span>
-            <Field value=Signal::derive(move || desk.detect_options.with(|o| format::editable(o.min_diameter)))
-                commit=move |typed: String| diameter(typed, |desk, d| desk.detect_options.update(|o| o.min_diameter = d))
+            <Field value=Signal::derive(move || desk.processing.detect_options.with(|o| format::editable(o.min_diameter)))
+                commit=move |typed: String| diameter(typed, |desk, d| desk.processing.detect_options.update(|o| o.min_diameter = d))
                 attr:class="short" attr:inputmode="decimal" attr:name="min-diameter" attr:aria-label=text::diameter_from/>
             "–"
-            <Field value=Signal::derive(move || desk.detect_options.with(|o| format::editable(o.max_diameter)))
-                commit=move |typed: String| diameter(typed, |desk, d| desk.detect_options.update(|o| o.max_diameter = d))
+            <Field value=Signal::derive(move || desk.processing.detect_options.with(|o| format::editable(o.max_diameter)))
+                commit=move |typed: String| diameter(typed, |desk, d| desk.processing.detect_options.update(|o| o.max_diameter = d))
                 attr:class="short" attr:inputmode="decimal" attr:name="max-diameter" attr:aria-label=text::diameter_to/>
         </label>
         <label class="option">
             <span>{text::steepest} " " <u>"°"</u></span>
             <Field value=Signal::derive(move || {
-                    let ratio = desk.detect_options.with(|o| o.min_axis_ratio);
+                    let ratio = desk.processing.detect_options.with(|o| o.min_axis_ratio);
                     format::editable((ratio.acos().to_degrees() * 10.0).round() / 10.0)
                 })
                 commit=steepest
@@ -308,7 +309,7 @@ pub fn TargetDetails() -> impl IntoView {
     }
 }
 
-/// What a ring may be, family by family; empty where a code was read, or there is no ring.
+/// Candidate codes of a ring by family; empty if a code was read, or there is no ring.
 fn candidates_words(target: &Target, rings: &Rings) -> String {
     let of = |(family, numbers): (Family, Vec<u32>)| {
         let numbers = numbers.iter().map(u32::to_string).collect::<Vec<_>>();
@@ -330,7 +331,7 @@ fn code_note(note: CodeNote) -> &'static str {
     }
 }
 
-/// What the camera has done to the photo, and what that means for its standard errors.
+/// Processing of the photo by the camera, and its effect on the standard errors.
 #[component]
 fn PictureNote() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -341,7 +342,7 @@ fn PictureNote() -> impl IntoView {
             None => super::measured::picture_sentence(&d.picture),
         };
         let photo = desk.selection.with(|s| s.photo.clone());
-        let corrections = desk.files.with(|files| {
+        let corrections = desk.photos.files.with(|files| {
             let file = files.get(&photo?)?;
             super::corrections::sentence(&file.name, &file.info)
         });
@@ -358,7 +359,7 @@ fn PictureNote() -> impl IntoView {
     }
 }
 
-/// How many blobs of the photo are no targets, and why.
+/// Number of rejected blobs of the photo by reason.
 #[component]
 fn RejectedTable() -> impl IntoView {
     let desk = expect_context::<Desk>();

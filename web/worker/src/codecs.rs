@@ -7,7 +7,7 @@ use sightline::sensor::{Shot, Unpacked};
 
 use crate::scope::{self, Refusal};
 
-/// A photo ready to be measured, whoever decodes it.
+/// A photo ready to be measured, from any decoder.
 pub fn shot_of(file: &[u8], channel: Channel) -> Result<Shot> {
     match decode::packed(file) {
         None => decode::photo(file, channel).map(Shot::Photo),
@@ -15,7 +15,7 @@ pub fn shot_of(file: &[u8], channel: Channel) -> Result<Shot> {
     }
 }
 
-/// What they make of a file of a format that is theirs: with its samples where they are wanted, with a small picture where `max_side`
+/// Their output for a file: with its samples where they are wanted, with a small picture where `max_side`
 /// is not 0.
 pub fn unpack(file: &[u8], format: Packed, channel: Channel, samples: bool, max_side: u32) -> Result<Unpacked> {
     let name = match channel {

@@ -2,11 +2,14 @@
 //! heavy parts is in the page's own module.
 
 mod codecs;
+mod decoded;
 mod foreign;
 mod inside;
-mod kept;
 mod scope;
 mod tasks;
+
+/// Does every task of the page.
+pub struct Engine;
 
 fn main() {
     scope::serve_requests();

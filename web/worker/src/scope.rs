@@ -14,7 +14,7 @@ use web_sys::{
     Blob, DedicatedWorkerGlobalScope, FileReaderSync, ImageBitmap, ImageData, MessageEvent, ReadableStreamByobReader,
 };
 
-use crate::tasks::Engine;
+use crate::Engine;
 
 /// Says that the worker is there, and does one task after the other.
 pub fn serve_requests() {
@@ -104,7 +104,7 @@ fn serve_networks_here(body: &[u8], files: Vec<Given>) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether what it carries of itself is packed as the photo is.
+/// Whether the embedded preview is packed as the photo is.
 fn is_heic(file: &mut dyn Stream) -> bool {
     let mut head = Vec::new();
     let read = Read::take(&mut *file, 64).read_to_end(&mut head).and_then(|_| file.rewind());
@@ -142,7 +142,7 @@ async fn load_codecs() {
     CODECS.set(loaded.map(Some).map_err(|error| words(&error)));
 }
 
-/// What the decoders make of a file: the header, the samples as bytes or words, the small picture.
+/// Output of the decoders for a file: the header, the samples as bytes or words, the small picture.
 ///
 /// # Errors
 /// That the decoders are missing, and why; or the error they give, as JSON.
@@ -271,7 +271,7 @@ fn say(body: Vec<u8>, bytes: Vec<Vec<u8>>) {
     send(&body, &arrays.iter().collect(), &arrays.iter().map(Uint8Array::buffer).collect());
 }
 
-/// Sends a word with what goes beside it, which is handed over as `transfer` says.
+/// Sends a message with its objects, which are transferred according to `transfer`.
 fn send(body: &[u8], beside: &Array, transfer: &Array) {
     let message = Object::new();
     let body = Uint8Array::from(body);

@@ -1,6 +1,6 @@
 //! How the engine does each task: every one is a call into it.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::HashSet;
 use std::io::{Cursor, Read, Seek};
 
 use sightline::adjust::{adjust, apply, measured_at};
@@ -8,46 +8,44 @@ use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Terminati
 use sightline::calibration::{
     ComparedModel, Coverage, CrossValidation, ModelConversion, compare_models, convert_camera, coverage, cross_validate,
 };
-use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
 use sightline::decode::Packed;
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Reason, Thing};
-use sightline::exchange::displacements;
-use sightline::exchange::package::{self, Held, Package};
-use sightline::exchange::{self, export};
-use sightline::experiments::{self, Experiment};
 use sightline::matching::{
     GridNaming, MatchOptions, Matching, PhotoVectors, Prediction, displaced, match_uncoded, name_grid, predict,
 };
 use sightline::monitoring::{self, Epoch, Monitoring};
 use sightline::orient::{Note, orient};
-use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
-use sightline::project::{ColourDifferences, LensColour, Plan, Project};
-use sightline::report::plots::{Plot, comparison, plots};
-use sightline::report::{self, Report};
+use sightline::project::{Plan, Project};
 use sightline::sensor::{self, Shot};
-use sightline::sheets::{self, Kind};
 use sightline::tiles::{self, Pyramid};
-use sightline::{Result, decode, detect, exif, sample};
+use sightline::{Result, decode, detect, exif};
+use sightline_exchange as exchange;
+use sightline_exchange::displacements;
+use sightline_exchange::package::{self, Held, Package};
+use sightline_lab::experiments::{self, Experiment};
+use sightline_lab::sample;
+use sightline_plan::{self as plan, Made, Prediction as PlanPrediction, Suggested};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareModels, CompareResults, Content, ConvertCamera,
-    CoverPhotos, CrossValidate, Detect, DifferColours, DisplacePhotos, DrawSheets, Drawn, Export, ExportExperiment,
-    ExportMonitoring, Foreign, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
-    MeasureFeatures, NameGrid, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign,
-    ReportEpochs, ReportMade, RunExperiment, Sample, SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service,
-    ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values,
-    WriteCamera, WriteNetwork, WriteSheets, Written, from_pieces, written,
+    CoverPhotos, CrossValidate, Detect, DisplacePhotos, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring,
+    Foreign, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures,
+    NameGrid, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs,
+    ReportMade, RunExperiment, Sample, SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart,
+    ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera,
+    WriteNetwork, WriteSheets, Written, from_pieces, written,
 };
+use sightline_report::plots::{Plot, comparison, plots};
+use sightline_report::sheets::{self, TargetKind};
+use sightline_report::{self as report, Report};
 
+use crate::Engine;
 use crate::codecs::{shot_of, unpack};
+use crate::decoded::{self, digest, with_photo};
 use crate::foreign;
-use crate::kept::{self, digest, with_photo};
 
 type Files = Vec<Given>;
-
-/// Does every task of the page.
-pub struct Engine;
 
 impl Service<Glance> for Engine {
     fn serve(&self, task: Glance, files: Files, _: Progress<Nothing>) -> Served<Option<Glanced>> {
@@ -96,17 +94,6 @@ impl Service<MeasureColours> for Engine {
     fn serve(&self, task: MeasureColours, files: Files, _: Progress<Nothing>) -> Served<ColoursApart> {
         let apart = detect::colours_apart(|channel| shot_of(first(&files), channel), &task.options)?;
         Ok((apart, Vec::new()))
-    }
-}
-
-impl Service<DifferColours> for Engine {
-    fn serve(
-        &self,
-        task: DifferColours,
-        _: Files,
-        _: Progress<Nothing>,
-    ) -> Served<BTreeMap<LensColour, ColourDifferences>> {
-        Ok((colour_differences(&task.camera, &task.measured)?, Vec::new()))
     }
 }
 
@@ -192,7 +179,7 @@ impl Service<Situate> for Engine {
             target_diameter: task.options.target_diameter,
             ..AdjustOptions::default()
         };
-        // Where the network does not carry an adjustment yet, its initial values serve.
+        // Where the network does not determine an adjustment yet, its initial values serve.
         let situated = match adjust(&oriented, &options, &mut |_| true) {
             Ok(adjustment) if adjustment.termination == Termination::Converged => {
                 Situated::of(apply(&oriented, &adjustment), Some(&adjustment))
@@ -258,7 +245,7 @@ impl Service<Unpack> for Engine {
 
 impl Service<Export> for Engine {
     fn serve(&self, task: Export, _: Files, _: Progress<Nothing>) -> Served<Vec<String>> {
-        Ok(export(&task.format, &task.project, task.adjustment.as_ref())?.into_iter().unzip())
+        Ok(report::files::export(&task.format, &task.project, task.adjustment.as_ref(), false)?.into_iter().unzip())
     }
 }
 
@@ -268,7 +255,7 @@ impl Service<ReadForeign> for Engine {
             Given::Whole(bytes) => Some(bytes),
             Given::Stream(_) => None,
         });
-        Ok((foreign::read(task.names.into_iter().zip(whole).collect(), task.convert), Vec::new()))
+        Ok((foreign::read(task.names.into_iter().zip(whole).collect(), task.sizes, task.convert), Vec::new()))
     }
 }
 
@@ -284,7 +271,7 @@ impl Service<WriteCamera> for Engine {
 impl Service<WriteNetwork> for Engine {
     fn serve(&self, task: WriteNetwork, _: Files, _: Progress<Nothing>) -> Served<Written> {
         let WriteNetwork { format, project, adjustment, convert } = task;
-        let files = exchange::export_with(&format, &project, adjustment.as_ref(), convert)?;
+        let files = report::files::export(&format, &project, adjustment.as_ref(), convert)?;
         let (conversions, ignored) = exchange::stated(&files);
         // Programs look for these files by their names: they stay together in an archive.
         let name = format!("{format}.zip");
@@ -434,8 +421,8 @@ impl Service<DrawSheets> for Engine {
             titles: drawn.pages.iter().map(|page| page.title.clone()).collect(),
             sketches: (0..drawn.pages.len().min(MOST_SKETCHES)).filter_map(|k| drawn.sketch(k)).collect(),
             svg: drawn.svg(shown).unwrap_or_default(),
-            codes: of(Kind::Code),
-            dots: of(Kind::Dot),
+            codes: of(TargetKind::Code),
+            dots: of(TargetKind::Dot),
             bars: drawn.bars.len(),
             counts: sheets::counts(task.options.family),
             least_distance: drawn.least_distance,
@@ -493,7 +480,7 @@ fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
     let (photo, small) = decode::photo_and_picture(file, channel, max_side)?;
     let size = [photo.grey.width, photo.grey.height].map(|side| side as u32);
     let digest = digest(file);
-    kept::keep(digest, channel, Shot::Photo(photo));
+    decoded::keep(digest, channel, Shot::Photo(photo));
     let opened = Opened {
         size,
         info: exif::read(file),
@@ -521,13 +508,13 @@ fn look_into_packed(file: &[u8], format: Packed, max_side: u32) -> Result<(Opene
             let picture = sensor::picture(&shot, max_side);
             small = ([picture.width, picture.height], picture.rgba);
         }
-        kept::keep(digest, channel, shot);
+        decoded::keep(digest, channel, shot);
     }
     let sha256 = report::sha256(file);
     Ok((Opened { size, info, small: small.0, digest, sha256 }, small.1))
 }
 
-/// The picture that a file carries of itself, in RGBA. That of a HEIC is packed as the photo is, and the file is read for it.
+/// The picture that is embedded in a file, in RGBA. That of a HEIC is packed as the photo is, and the file is read for it.
 fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec<u8>)> {
     if let Some(found) = decode::embedded(file, max_side) {
         let small = [found.picture.width, found.picture.height];
@@ -546,7 +533,7 @@ fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec
     Some((Glanced { small: found.header.small, orientation: found.header.info.orientation }, found.small))
 }
 
-/// Bytes in which a HEIC says what it has.
+/// Bytes of the header of a HEIC file.
 const HEAD: u64 = 1 << 16;
 /// Bytes that are read of one: phones write a few million, and what lies beyond is found damaged.
 const LARGEST: u64 = 1 << 26;
@@ -572,7 +559,7 @@ fn shown(file: &[u8]) -> Result<decode::Picture> {
     }
 }
 
-/// What orientation gave, as an input of the adjustment: what could not be oriented takes no part, and is not taken away.
+/// Result of the orientation as input of the adjustment: photos and points that could not be oriented are not used, but not removed either.
 pub fn with_what_is_oriented(project: &Project, tell: &mut dyn FnMut(Vec<Note>)) -> Result<Project> {
     let oriented = orient(project)?;
     tell(oriented.notes);

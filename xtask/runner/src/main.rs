@@ -1,5 +1,5 @@
 //! Cargo's runner of wasm tests: a test module is bound by wasm-bindgen's library and run in Node. What wasm-bindgen's own runner does beside
-//! that (browsers, their drivers, a server) needs crates that nobody maintains any more.
+//! that (browsers, their drivers, a server) needs crates that are no longer maintained.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ const TEST: &str = "__wbgt_";
 /// The mark of a test that is ignored.
 const IGNORED: char = '$';
 
-/// What cargo hands on, in the words of the standard harness.
+/// Arguments passed on by cargo, as for the standard harness.
 #[derive(Debug, Default, PartialEq)]
 struct Arguments {
     module: PathBuf,

@@ -1,4 +1,4 @@
-//! Where dependencies come from, and those that are here in several versions, against deny.toml: what `cargo deny` looks at, offline.
+//! Checks the sources of dependencies and duplicate versions against deny.toml, as `cargo deny` does, but offline.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,10 +8,11 @@ use toml::{Table, Value};
 use crate::process::root;
 use crate::{Outcome, build};
 
-/// The lock files: of the workspace, and of the fuzz targets, which are one of their own.
+/// The lock files of the workspace and of the fuzz targets, which are a separate workspace.
 const LOCKS: [&str; 2] = ["Cargo.lock", "fuzz/Cargo.lock"];
 
-/// Packages from elsewhere than deny.toml allows, older versions that it does not name, and names there of what is no more.
+/// Packages from sources that deny.toml does not allow, duplicate versions that it does not list, and listed versions that are no longer
+/// in use.
 pub fn faults() -> Outcome<Vec<String>> {
     let deny = read("deny.toml")?;
     let registries = strings(&deny, "sources", "allow-registry")?;
@@ -34,14 +35,14 @@ fn strings(deny: &Table, section: &str, key: &str) -> Outcome<Vec<String>> {
     Ok(list.iter().filter_map(Value::as_str).map(str::to_owned).collect())
 }
 
-/// The versions that are let in beside newer ones.
+/// The duplicate versions that deny.toml allows.
 fn skipped(deny: &Table) -> Outcome<Vec<String>> {
     let list = deny.get("bans").and_then(|bans| bans.get("skip")).and_then(Value::as_array);
     let list = list.ok_or("deny.toml: bans.skip is missing")?;
     Ok(list.iter().filter_map(|entry| entry.get("crate")).filter_map(Value::as_str).map(str::to_owned).collect())
 }
 
-/// Packages of a lock file that come from no registry of the list; those of the repository itself have no source.
+/// Packages of a lock file that come from none of the registries. Packages of this repository have no source.
 fn foreign(lock: &Table, registries: &[String]) -> Vec<String> {
     let packages = lock.get("package").and_then(Value::as_array).map(Vec::as_slice).unwrap_or_default();
     let text = |package: &Value, key: &str| package.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
@@ -54,7 +55,7 @@ fn foreign(lock: &Table, registries: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// Names with several versions, out of lines like "name v1.2.3".
+/// Names with several versions, from lines like "name v1.2.3".
 fn duplicates(tree: &str) -> BTreeMap<String, Vec<String>> {
     let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for line in tree.lines() {
@@ -63,7 +64,7 @@ fn duplicates(tree: &str) -> BTreeMap<String, Vec<String>> {
             continue;
         };
         let versions = all.entry(name.to_owned()).or_default();
-        // A package that is built with other features for the build is listed twice.
+        // A package that is also built with other features for build scripts is listed twice.
         if !versions.iter().any(|known| known == version) {
             versions.push(version.to_owned());
         }
@@ -72,14 +73,14 @@ fn duplicates(tree: &str) -> BTreeMap<String, Vec<String>> {
     all
 }
 
-/// One version of each package is the one to have; every other is on the list, and nothing else is.
+/// Faults if more than one version of a package is not listed in deny.toml, or if a listed version is not a duplicate.
 fn versions(duplicates: &BTreeMap<String, Vec<String>>, skipped: &[String]) -> Vec<String> {
     let mut faults = Vec::new();
     for (name, versions) in duplicates {
         let new = versions.iter().filter(|version| !skipped.contains(&format!("{name}@{version}"))).collect::<Vec<_>>();
         if new.len() > 1 {
             faults.push(format!(
-                "{name} is here in versions {versions:?}: name the older ones in deny.toml, with what wants them"
+                "{name} is used in versions {versions:?}: list the older ones in deny.toml, with the packages that need them"
             ));
         }
     }
@@ -88,7 +89,7 @@ fn versions(duplicates: &BTreeMap<String, Vec<String>>, skipped: &[String]) -> V
             duplicates.get(name).is_some_and(|versions| versions.iter().any(|known| known == version))
         });
         if !here {
-            faults.push(format!("{entry} is let in by deny.toml and is not here beside another version"));
+            faults.push(format!("{entry} is listed in deny.toml but is not a duplicate version"));
         }
     }
     faults

@@ -7,17 +7,21 @@ use std::process::Command;
 use crate::Outcome;
 use crate::process::root;
 
-use super::order;
+use super::{names, order};
 
 /// Lines from which a file should be split; said, not enforced.
 const LONG: usize = 450;
 
-/// Bytes above which a file is no source: pictures of the documents have to be smaller, and data and packages do not belong here.
+/// Maximum size of a source file in bytes: pictures of the documents have to be smaller, and data and packages do not belong here.
 const LARGE: u64 = 300_000;
 
-/// What a part of the tree must not contain.
+/// The engine and the crates above it.
+const ENGINE: &[&str] = &["src/", "exchange/", "plan/", "report/", "lab/"];
+
+/// Words that a folder must not contain.
 struct Ban {
-    folder: &'static str,
+    /// Where; everywhere if empty.
+    folders: &'static [&'static str],
     /// Paths below which the words are at home.
     except: &'static [&'static str],
     words: &'static [&'static str],
@@ -26,38 +30,43 @@ struct Ban {
 
 const BANS: [Ban; 6] = [
     Ban {
-        folder: "src",
+        folders: ENGINE,
         except: &[],
         words: &["web_sys", "js_sys", "wasm_bindgen::", "serde_wasm_bindgen"],
         why: "the engine knows no JavaScript: that is face/",
     },
-    Ban { folder: "src", except: &[], words: &["leptos", "sightline_desk"], why: "the engine does not know the desk" },
     Ban {
-        folder: "web",
+        folders: ENGINE,
+        except: &[],
+        words: &["leptos", "sightline_desk"],
+        why: "the engine does not know the desk",
+    },
+    Ban {
+        folders: &["web/"],
         except: &["web/src/browser/", "web/worker/src/scope.rs"],
         words: &["web_sys", "js_sys"],
         why: "the desk touches the browser in web/src/browser and web/worker/src/scope.rs only",
     },
     Ban {
-        folder: "web/src",
+        folders: &["web/src/"],
         except: &[],
         words: &[
             "sightline::detect::",
             "sightline::decode",
             "sightline::orient::orient",
             "sightline::adjust::adjust",
-            "sightline::exchange::package",
+            "sightline_exchange::package",
         ],
         why: "the page computes nothing and reads no files of its own: that is web/worker",
     },
     Ban {
-        folder: "src",
+        folders: ENGINE,
         except: &[],
         words: &["println!", "eprintln!", "dbg!"],
         why: "the engine reports in results, not on a terminal",
     },
     Ban {
-        folder: "",
+        folders: &[],
         except: &["xtask/src/check/invariants.rs"],
         words: &["TODO", "FIXME", "XXX", "todo!(", "unimplemented!("],
         why: "nothing is left for later",
@@ -70,6 +79,7 @@ pub fn faults() -> Outcome<Vec<String>> {
     let mut faults = Vec::new();
     let sources = sources(&root)?;
     faults.extend(order::faults(&sources)?);
+    faults.extend(names::faults(&sources)?);
     for path in sources {
         let text = fs::read_to_string(root.join(&path)).map_err(|error| format!("{path}: {error}"))?;
         faults.extend(BANS.iter().flat_map(|ban| ban.broken_in(&path, &text)));
@@ -99,11 +109,12 @@ pub fn faults() -> Outcome<Vec<String>> {
 
 impl Ban {
     fn broken_in(&self, path: &str, text: &str) -> Vec<String> {
-        if !path.starts_with(self.folder) || self.except.iter().any(|home| path.starts_with(home)) {
+        let here = self.folders.is_empty() || self.folders.iter().any(|folder| path.starts_with(folder));
+        if !here || self.except.iter().any(|home| path.starts_with(home)) {
             return Vec::new();
         }
         let code = |line: &str| !line.trim_start().starts_with("//");
-        let lines = text.lines().enumerate().filter(|(_, line)| code(line) || self.folder.is_empty());
+        let lines = text.lines().enumerate().filter(|(_, line)| code(line) || self.folders.is_empty());
         let broken = lines.filter_map(|(number, line)| {
             let word = self.words.iter().find(|word| line.contains(**word))?;
             // The tests of a module run in Node too.
@@ -142,9 +153,12 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 /// Rust and JavaScript sources that are ours, relative to the root.
 fn sources(root: &Path) -> Outcome<Vec<String>> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = ["src", "codecs", "face", "web", "xtask", "tests", "benches", "examples", "e2e"]
-        .map(|name| root.join(name))
-        .into();
+    let mut folders: Vec<PathBuf> = [
+        "src", "codecs", "exchange", "face", "lab", "plan", "report", "web", "xtask", "tests", "benches", "examples",
+        "e2e",
+    ]
+    .map(|name| root.join(name))
+    .into();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else { continue };
         for entry in entries {

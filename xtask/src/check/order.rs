@@ -1,22 +1,39 @@
-//! The order of the engine's modules and of the rooms inside them: each uses only those named before it.
-//!
-//! Read from the text: `crate::` and `super::` paths of every source file outside its tests. A module that is in no list is a fault.
+//! The order of modules: each uses only those named before it, through whatever re-export, and those of one folder form no circle. A
+//! module of an ordered folder that is in no list is a fault.
 
-use std::fs;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Outcome;
 use crate::process::root;
 
+use super::modules::{Module, Modules, Use};
+
+/// Files of one folder that may use each other: more cannot be read one after the other.
+const MOST: usize = 3;
+
+/// All children that an order does not name; they may use each other.
+const OTHERS: &str = "*";
+
 /// Modules of one folder in their order.
 struct Order {
+    /// Folder of the crate.
+    folder: &'static str,
     /// Path of the module whose children are ordered; empty for the crate.
     parent: &'static [&'static str],
-    /// Children, first those that use no other.
+    /// Children, first those that use no other; [`OTHERS`] means all that are not named.
     children: &'static [&'static str],
 }
 
-const ORDERS: [Order; 3] = [
+const ORDERS: [Order; 5] = [
     Order {
+        folder: "web/src",
+        parent: &[],
+        children: &["format", "browser", "i18n", "document", "edit", "parts", "store", "view"],
+    },
+    // What views share uses no view; the rest is held free of circles.
+    Order { folder: "web/src", parent: &["view"], children: &["components", OTHERS, "rooms", "shell"] },
+    Order {
+        folder: "src",
         parent: &[],
         children: &[
             "error",
@@ -50,25 +67,16 @@ const ORDERS: [Order; 3] = [
             "comparison",
             "matching",
             "orient",
-            "scene",
-            "render",
-            "network",
-            "sample",
-            "report",
-            "exchange",
-            "sheets",
-            "plan",
-            "experiments",
-            "teaching",
         ],
     },
     Order {
+        folder: "src",
         parent: &["detect"],
         children: &[
             "acceptance",
             "median",
             "normal",
-            "part",
+            "window",
             "ellipse",
             "picture",
             "edges",
@@ -77,19 +85,20 @@ const ORDERS: [Order; 3] = [
             "centroid",
             "measure",
             "code",
-            "covered",
-            "lump",
-            "alike",
+            "occlusion",
+            "adaptive_moments",
+            "small_targets",
             "pass",
             "rims",
             "click",
-            "whole",
+            "damaged_rows",
             "sites",
             "shot",
             "colours",
         ],
     },
     Order {
+        folder: "src",
         parent: &["adjust"],
         children: &[
             "linear",
@@ -109,104 +118,158 @@ const ORDERS: [Order; 3] = [
     },
 ];
 
-/// Uses of a later module by an earlier one.
+/// Crates whose modules are examined: their folders.
+const CRATES: [&str; 7] = ["src", "exchange/src", "plan/src", "report/src", "lab/src", "web/src", "web/worker/src"];
+
+/// Uses of a later module by an earlier one, and circles.
 pub fn faults(sources: &[String]) -> Outcome<Vec<String>> {
     let mut faults = Vec::new();
-    for path in sources.iter().filter(|path| path.starts_with("src/") && path.ends_with(".rs")) {
-        let text = fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
-        faults.extend(ORDERS.iter().flat_map(|order| order.broken_in(path, &text)));
+    for folder in CRATES {
+        let modules = Modules::of(&root(), folder, sources)?;
+        let uses = modules.uses();
+        for order in ORDERS.iter().filter(|order| order.folder == folder) {
+            faults.extend(order.unknown(&modules));
+            faults.extend(uses.iter().filter_map(|one| order.broken_by(one)));
+        }
+        faults.extend(
+            circles(&uses)
+                .into_iter()
+                .filter(|circle| circle.size > MOST)
+                .map(|circle| format!("{folder}: these use each other: {}\n{}", circle.names, circle.lines.join("\n"))),
+        );
     }
     Ok(faults)
 }
 
-/// The module a file holds, from the crate down; none for the crate's root and for files of tests alone.
-fn module(path: &str) -> Option<Vec<&str>> {
-    let path: Vec<&str> = path.strip_prefix("src/")?.strip_suffix(".rs")?.split('/').collect();
-    (path != ["lib"] && path.last() != Some(&"tests")).then_some(path)
-}
-
 impl Order {
-    fn broken_in(&self, path: &str, text: &str) -> Vec<String> {
-        let Some(module) = module(path) else { return Vec::new() };
-        let Some(own) = below(&module, self.parent) else { return Vec::new() };
-        let place = |name: &str| self.children.iter().position(|child| *child == name);
-        let Some(at) = place(own) else {
-            return vec![format!("{path}: the order of modules in xtask/src/check/order.rs does not name {own}")];
+    /// Modules that the order does not name.
+    fn unknown(&self, modules: &Modules) -> Vec<String> {
+        let unknown = |(module, file): (&Module, &str)| {
+            let own = self.place(module)?.err()?;
+            Some(format!("{file}: the order of modules in xtask/src/check/order.rs does not name {own}"))
         };
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let lines = code.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("//"));
-        let broken = lines.flat_map(|(number, line)| {
-            let used = named(line, &module).into_iter().filter_map(|path| {
-                let child = (*below(&path.iter().map(String::as_str).collect::<Vec<_>>(), self.parent)?).to_owned();
-                place(&child).filter(|other| *other > at).map(|_| child)
-            });
-            used.map(|child| format!("{path}:{}: {own} comes before {child} and must not use it", number + 1))
-                .collect::<Vec<_>>()
-        });
-        broken.collect()
+        modules.all().filter_map(unknown).collect()
+    }
+
+    /// Place in the order of a module below the parent; its name if it is in no list.
+    fn place(&self, module: &Module) -> Option<Result<usize, String>> {
+        let own = child(module, self.parent)?;
+        let place = |name: &str| self.children.iter().position(|known| *known == name);
+        Some(place(own).or_else(|| place(OTHERS)).ok_or_else(|| own.to_owned()))
+    }
+
+    fn broken_by(&self, one: &Use) -> Option<String> {
+        let (from, to) = (self.place(&one.from)?.ok()?, self.place(&one.to)?.ok()?);
+        let [before, after] = [from, to].map(|place| self.children[place]);
+        (to > from).then(|| format!("{}: {before} comes before {after} and must not use it", one.place))
     }
 }
 
-/// The name that follows the parent's in a path.
-fn below<'a>(path: &[&'a str], parent: &[&str]) -> Option<&'a str> {
-    path.starts_with(parent).then(|| path.get(parent.len()).copied()).flatten()
+/// The child of `parent` that a module is or lies in.
+fn child<'a>(module: &'a Module, parent: &[&str]) -> Option<&'a str> {
+    let inside = module.len() > parent.len() && module.iter().zip(parent).all(|(a, b)| a == b);
+    inside.then(|| module[parent.len()].as_str())
 }
 
-/// Paths that a line names, from the crate down, the first of a group in braces only where it is one line's.
-fn named(line: &str, module: &[&str]) -> Vec<Vec<String>> {
+/// Modules that use each other.
+struct Circle {
+    /// Their names.
+    names: String,
+    /// How many they are.
+    size: usize,
+    /// One place of every use among them.
+    lines: Vec<String>,
+}
+
+/// Modules of one folder, each with all below it, that use each other; a folder's own file and its children are one.
+fn circles(uses: &BTreeSet<Use>) -> Vec<Circle> {
+    let parents: BTreeSet<&[String]> =
+        uses.iter().flat_map(|one| (0..one.from.len()).map(|n| &one.from[..n])).collect();
     let mut found = Vec::new();
-    let starts = ["crate::", "super::"];
-    let mut rest = line;
-    while let Some((at, start)) = starts.iter().filter_map(|start| Some((rest.find(start)?, *start))).min() {
-        let bounded = !rest[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
-        rest = &rest[at + start.len()..];
-        if !bounded {
-            continue;
+    for parent in parents {
+        let names: Vec<&str> = parent.iter().map(String::as_str).collect();
+        let mut edges: BTreeMap<&str, BTreeMap<&str, &str>> = BTreeMap::new();
+        for one in uses {
+            if let (Some(from), Some(to)) = (child(&one.from, &names), child(&one.to, &names))
+                && from != to
+            {
+                edges.entry(from).or_default().entry(to).or_insert(&one.place);
+            }
         }
-        let mut base: Vec<String> = match start {
-            "super::" => module[..module.len() - 1].iter().map(|name| (*name).to_owned()).collect(),
-            _ => Vec::new(),
+        let reach = |start: &str| {
+            let (mut seen, mut open) = (BTreeSet::new(), vec![start]);
+            while let Some(at) = open.pop() {
+                for next in edges.get(at).into_iter().flat_map(BTreeMap::keys) {
+                    if seen.insert(*next) {
+                        open.push(*next);
+                    }
+                }
+            }
+            seen
         };
-        while let Some(further) = rest.strip_prefix("super::") {
-            base.pop();
-            rest = further;
-        }
-        for path in tails(rest) {
-            found.push(base.iter().cloned().chain(path).collect());
+        let reached: BTreeMap<&str, BTreeSet<&str>> = edges.keys().map(|name| (*name, reach(name))).collect();
+        let mut told: BTreeSet<&str> = BTreeSet::new();
+        for (name, all) in &reached {
+            if told.contains(name) || !all.contains(name) {
+                continue;
+            }
+            let circle: Vec<&str> = all
+                .iter()
+                .copied()
+                .filter(|other| reached.get(other).is_some_and(|back| back.contains(name)))
+                .collect();
+            told.extend(&circle);
+            let prefix = if names.is_empty() { String::new() } else { format!("{}::", names.join("::")) };
+            let inside = circle.iter().flat_map(|from| edges[from].iter().map(move |(to, place)| (from, to, place)));
+            let inside = inside.filter(|(_, to, _)| circle.contains(to));
+            let lines: Vec<String> =
+                inside.map(|(from, to, place)| format!("    {from} uses {to} at {place}")).collect();
+            found.push(Circle { names: format!("{prefix}{{{}}}", circle.join(", ")), size: circle.len(), lines });
         }
     }
     found
-}
-
-/// `a::b::c` as its parts, `{a::b, c}` as several.
-fn tails(text: &str) -> Vec<Vec<String>> {
-    let parts = |text: &str| -> Vec<String> {
-        let end = text.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':')).unwrap_or(text.len());
-        text[..end].split("::").filter(|part| !part.is_empty()).map(str::to_owned).collect()
-    };
-    match text.strip_prefix('{') {
-        Some(group) => {
-            group.split('}').next().unwrap_or_default().split(',').map(|one| parts(one.trim_start())).collect()
-        }
-        None => vec![parts(text)],
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn module(path: &str) -> Module {
+        path.split("::").filter(|name| !name.is_empty()).map(str::to_owned).collect()
+    }
+
+    fn used(from: &str, to: &str) -> Use {
+        Use { from: module(from), to: module(to), place: "a.rs:1".into() }
+    }
+
     #[test]
-    fn later_modules_are_seen_through_every_kind_of_path() {
-        let order = Order { parent: &["adjust"], children: &["linear", "problem", "solve"] };
-        let broken = |path: &str, text: &str| order.broken_in(path, text).len();
-        assert_eq!(broken("src/adjust/problem/state.rs", "use crate::adjust::solve::session::Log;\n"), 1);
-        assert_eq!(broken("src/adjust/problem/state.rs", "    super::super::solve::go();\n"), 1);
-        assert_eq!(broken("src/adjust/problem.rs", "use super::{linear, solve};\n"), 1);
-        assert_eq!(broken("src/adjust/solve/session.rs", "use crate::adjust::problem::state::State;\n"), 0);
-        assert_eq!(broken("src/adjust/problem/state.rs", "// use crate::adjust::solve\nuse super::solve;\n"), 0);
-        assert_eq!(broken("src/adjust/problem/state.rs", "#[cfg(test)]\nuse crate::adjust::solve::x;\n"), 0);
-        assert_eq!(broken("src/adjust/attic.rs", ""), 1, "a room that no list names");
-        assert_eq!(broken("src/detect/scan.rs", "use crate::adjust::solve::x;\n"), 0);
+    fn later_modules_are_not_used() {
+        let order = Order { folder: "src", parent: &["adjust"], children: &["linear", "problem", "solve"] };
+        assert!(order.broken_by(&used("adjust::problem::state", "adjust::solve::session")).is_some());
+        assert!(order.broken_by(&used("adjust::solve::session", "adjust::problem::state")).is_none());
+        assert!(order.broken_by(&used("adjust", "adjust::solve")).is_none(), "the folder's own file");
+        assert!(order.broken_by(&used("detect::scan", "adjust::solve")).is_none());
+        assert_eq!(order.place(&module("adjust::attic")), Some(Err("attic".to_owned())));
+        let order = Order { folder: "web/src", parent: &["view"], children: &["components", OTHERS, "shell"] };
+        assert!(order.broken_by(&used("view::components::table", "view::photos")).is_some());
+        assert!(order.broken_by(&used("view::photos", "view::shell")).is_some());
+        assert!(order.broken_by(&used("view::photos", "view::targets")).is_none());
+    }
+
+    #[test]
+    fn circles_are_told_once_and_at_the_folder_where_they_close() {
+        let uses = [
+            used("a::x", "b"),
+            used("b", "c"),
+            used("c::y", "a"),
+            used("d", "a"),
+            used("a::x", "a::z"),
+            used("a::z", "a::x"),
+        ];
+        let found = circles(&uses.into());
+        assert_eq!(found.iter().map(|circle| circle.names.as_str()).collect::<Vec<_>>(), ["{a, b, c}", "a::{x, z}"]);
+        assert_eq!(found[0].size, 3);
+        assert_eq!(found[0].lines[0], "    a uses b at a.rs:1");
+        assert!(circles(&[used("a", "a::x"), used("a::x", "a")].into()).is_empty());
     }
 }

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use super::Session;
 use crate::adjust::datum::free::{SIMILARITY, at_photo};
 use crate::adjust::equations::back_substitution::Full;
-use crate::adjust::problem::state::Pose;
+use crate::adjust::problem::state::ExteriorOrientation;
 use crate::adjustment::Adjustment;
 use crate::error::Result;
 
@@ -23,7 +23,7 @@ impl Session<'_> {
         let photos: HashMap<&str, _> = adjustment.photos.iter().map(|photo| (photo.id.as_str(), photo)).collect();
         for (block, pose) in network.photos.iter().zip(&mut self.state.poses) {
             if let Some(adjusted) = photos.get(project.photos[block.index].id.as_str()) {
-                *pose = Pose::new(network.frame.inside(adjusted.position), adjusted.rotation);
+                *pose = ExteriorOrientation::new(network.frame.inside(adjusted.position), adjusted.rotation);
             }
         }
         let points: HashMap<&str, _> = adjustment.points.iter().map(|point| (point.id.as_str(), point)).collect();
@@ -44,10 +44,10 @@ impl Session<'_> {
 
     /// Cofactors of the estimated parameters of interior orientation `interior`, in the network's order and the parameters' units, then
     /// of the mean turn (radians) and the mean shift (the document's unit) of its photos about and along their camera axes. The equations
-    /// are those that [`Session::finish`] has factored.
+    /// are the errors of [`Session::finish`] factored.
     ///
     /// # Errors
-    /// [`crate::Error::Invalid`] where the datum's points have come together.
+    /// [`crate::Error::Invalid`] if the datum's points have come together.
     pub fn calibration(&self, interior: usize) -> Result<DMatrix<f64>> {
         let estimated = &self.network.interiors[interior].estimated;
         let own = |photo: &usize| self.network.photos[*photo].interior == interior;

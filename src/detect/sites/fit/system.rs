@@ -1,18 +1,18 @@
-//! The normal equations of the fit: what the model says of a site, and how it changes.
+//! The normal equations of the fit: the value of the model at a site and its derivatives.
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Site, Sites, State};
+use super::{Site, SiteFitState, Sites};
 use crate::detect::acceptance::sites::WHITE;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::rendered::Field;
 
-/// u, v, p, q, r, s, contrast, the ground's level, and the slopes of the light.
+/// u, v, p, q, r, s, contrast, the background's level, and the slopes of the light.
 pub(super) const UNKNOWNS: usize = 10;
-type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
-pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
+type SiteNormalMatrix = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
+pub(super) type SiteUnknowns = SVector<f64, UNKNOWNS>;
 
-/// What the model says of a site.
+/// Value of the model at a site.
 pub(super) struct Modelled {
     pub level: f64,
     share: f64,
@@ -22,7 +22,7 @@ pub(super) struct Modelled {
     slopes: [f64; 3],
 }
 
-pub(super) fn modelled(site: &Site, state: &State, field: &Field, origin: [f64; 2]) -> Modelled {
+pub(super) fn modelled(site: &Site, state: &SiteFitState, field: &Field, origin: [f64; 2]) -> Modelled {
     let (column, row) = (site.x - field.left, site.y - field.top);
     let [x, y] = [site.x as f64 + 0.5 - origin[0], site.y as f64 + 0.5 - origin[1]];
     let inside = (0..field.width as i64).contains(&column) && (0..field.height as i64).contains(&row);
@@ -44,7 +44,7 @@ pub(super) fn counts(sites: &Sites, site: &Site, level: f64, by_sample: bool) ->
 }
 
 /// How the model of a site changes with the unknowns.
-fn row(site: &Site, state: &State, model: &Modelled, origin: [f64; 2]) -> [f64; UNKNOWNS] {
+fn row(site: &Site, state: &SiteFitState, model: &Modelled, origin: [f64; 2]) -> [f64; UNKNOWNS] {
     let Outline { u, v, p, q, r } = state.outline;
     let det = p * q - r * r;
     let place = [site.x as f64 + 0.5, site.y as f64 + 0.5];
@@ -61,8 +61,8 @@ fn row(site: &Site, state: &State, model: &Modelled, origin: [f64; 2]) -> [f64; 
 
 /// The weighted normal equations.
 pub(super) struct System {
-    normal: Normal,
-    right: Unknowns,
+    normal: SiteNormalMatrix,
+    right: SiteUnknowns,
     /// Sums of weighted squares and of squares.
     pub squares: [f64; 2],
     /// Sites that count.
@@ -71,8 +71,16 @@ pub(super) struct System {
 
 impl System {
     /// Of the sites that count, at a state whose picture is in the field.
-    pub fn of(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2], by_sample: bool) -> Self {
-        let mut system = Self { normal: Normal::zeros(), right: Unknowns::zeros(), squares: [0.0; 2], used: 0 };
+    pub fn of(
+        sites: &Sites,
+        chosen: &[Site],
+        state: &SiteFitState,
+        field: &Field,
+        origin: [f64; 2],
+        by_sample: bool,
+    ) -> Self {
+        let mut system =
+            Self { normal: SiteNormalMatrix::zeros(), right: SiteUnknowns::zeros(), squares: [0.0; 2], used: 0 };
         for site in chosen {
             let model = modelled(site, state, field, origin);
             if !counts(sites, site, model.level, by_sample) {
@@ -96,17 +104,17 @@ impl System {
         system
     }
 
-    /// What light in the sites that the model does not know moves the centre by, N⁻¹ J'l.
+    /// Displacement of the centre by light at the sites that the model does not include, N⁻¹ J'l.
     pub fn pulled(
         &self,
         sites: &Sites,
         chosen: &[Site],
-        state: &State,
+        state: &SiteFitState,
         field: &Field,
         origin: [f64; 2],
         light: impl Fn(f64, f64) -> f64,
     ) -> Option<[f64; 2]> {
-        let mut right = Unknowns::zeros();
+        let mut right = SiteUnknowns::zeros();
         for site in chosen {
             let model = modelled(site, state, field, origin);
             if !counts(sites, site, model.level, false) {
@@ -114,16 +122,16 @@ impl System {
             }
             let own = light(site.x as f64 + 0.5, site.y as f64 + 0.5) / sites.noise.variance(model.level);
             if own != 0.0 {
-                right += own * Unknowns::from(row(site, state, &model, origin));
+                right += own * SiteUnknowns::from(row(site, state, &model, origin));
             }
         }
         Self { right, ..*self }.solve().map(|moved| [moved[0], moved[1]])
     }
 
-    /// Scales of a unit diagonal, and the matrix with a trace of damping for what clipped sites do not determine.
-    fn scaled(&self) -> (Normal, Unknowns) {
-        let scale = Unknowns::from_fn(|i, _| 1.0 / self.normal[(i, i)].max(1e-300).sqrt());
-        let mut matrix = Normal::from_fn(|i, j| self.normal[(i, j)] * scale[i] * scale[j]);
+    /// Scales of a unit diagonal, and the matrix with a trace of damping for what saturated sites do not determine.
+    fn scaled(&self) -> (SiteNormalMatrix, SiteUnknowns) {
+        let scale = SiteUnknowns::from_fn(|i, _| 1.0 / self.normal[(i, i)].max(1e-300).sqrt());
+        let mut matrix = SiteNormalMatrix::from_fn(|i, j| self.normal[(i, j)] * scale[i] * scale[j]);
         for i in 0..UNKNOWNS {
             matrix[(i, i)] += 1e-7;
         }
@@ -131,7 +139,7 @@ impl System {
     }
 
     /// Corrections.
-    pub fn solve(&self) -> Option<Unknowns> {
+    pub fn solve(&self) -> Option<SiteUnknowns> {
         let (matrix, scale) = self.scaled();
         Some(matrix.cholesky()?.solve(&self.right.component_mul(&scale)).component_mul(&scale))
     }

@@ -120,7 +120,7 @@ fn given_points_keep_what_is_known_of_them() {
     plan.datum.kind = DatumKind::Control;
     set_control(plan, &[]).expect("none");
     assert_eq!(plan.datum.kind, DatumKind::Free);
-    assert_eq!(listed(plan, ShownAxes::XYZ), "b, 5, 1, 2\nd, 6, 1, 2\n");
+    assert_eq!(points_text(plan, ShownAxes::XYZ), "b, 5, 1, 2\nd, 6, 1, 2\n");
 }
 
 #[test]

@@ -48,7 +48,7 @@ declare! { changes {
         "for circular targets without a diameter of their own; corrects their eccentricity; empty: no correction";
     no_diameter(typed): "\"{typed}\" is not a diameter: type a number above 0, or nothing.";
     gross_errors: "Gross errors";
-    gross_left: "Leave everything in";
+    gross_left: "Use all observations";
     gross_left_body: "Suspicious observations are listed; you decide.";
     gross_snooping: "Data snooping";
     gross_snooping_body: "The worst observation is excluded, one per round, and restored if it fits after all.";
@@ -118,7 +118,7 @@ declare! { changes {
     correlated_body(camera): "Camera {camera}: hold one of them, or add photos rotated by 90° and from different distances.";
     camera_against_photos(n): "Camera and photo positions cannot be separated well in {n} {n:photo|photos}";
     camera_against_photos_body(limit, photos):
-        "Correlations over {limit}. Coordinates suffer little as long as the camera is used as adjusted; take photos rotated by 90° and from different distances ({photos}).";
+        "Correlations over {limit}. Coordinates are hardly affected as long as the adjusted camera is used; take photos rotated by 90° and from different distances ({photos}).";
     low_redundancy(n): "{n} {n:observation is|observations are} hardly checked by others";
     low_redundancy_body(names): "Redundancy numbers below 0.1: a gross error there goes undetected ({names}). Add photos or points there.";
     two_rays(points): "Measure in a third photo: {points}";

@@ -24,7 +24,7 @@ declare! { comparing {
         "Coordinates are not compared: the two results have {common} common {common:point|points}, too few or on one line for a transformation.";
     other_units(before, after): "Coordinates are not compared: lengths were in {before} and are in {after}.";
     ratios_independent: "The two results share no observations, so variances add. “× σ” is from a vector test with the covariance of the point, scaled to the limit of a single test.";
-    ratios_union: "Standard errors are those of the difference, computed from the observations of both results; shared observations cancel. “× σ” is that of a vector test, on the limit of a single test.";
+    ratios_union: "Standard errors are those of the difference, computed from the observations of both results; shared observations cancel. “× σ” is from a vector test, scaled to the limit of a single test.";
     ratios_mean: "Standard errors are the larger of the two results; “× σ” is the largest of the three axes.";
     gone(n, points): "No longer in this result, {n}: {points}.";
     only_now(n, points): "New in this result, {n}: {points}.";

@@ -16,7 +16,7 @@ declare! { control {
     take_points(n): "Import {n} {n:point|points}";
     measured: "measured";
     not_measured: "not measured in any photo";
-    fixed: "fixed";
+    fixed: "held";
     distances: "Distances";
     distance_same_point: "A distance needs two different points.";
     distance_no_point: "Both ends must be points of this project.";
@@ -55,12 +55,12 @@ declare! { control {
     axes_yx: "Y, north";
     in_unit(unit): "in {unit}";
     observed_centres: "Observed projection centres";
-    observed_centres_hint: "as from GNSS; used under the control datum";
+    observed_centres_hint: "e.g. from GNSS; used with the datum “Control points”";
     forget_centre: "Stop observing this projection centre";
     observe: "Observe";
     datum: "Datum";
     datum_control: "Control points";
-    datum_control_means: "The result is in the control system; errors of control points distort the shape.";
+    datum_control_means: "The result is in the coordinate system of the control points; their errors distort the shape.";
     datum_minimal: "Minimal constraints";
     datum_minimal_means: "Holds seven coordinates, which fix position, rotation and scale only. Standard errors depend on which seven.";
     datum_free: "Free network";

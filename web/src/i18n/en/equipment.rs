@@ -33,7 +33,7 @@ declare! { equipment {
         "{file}: {cameras} new {cameras:camera|cameras}, {calibrations} {calibrations:calibration|calibrations}, {bars} scale {bars:bar|bars} imported.";
     known_camera(name, date): "Known camera: {name}, calibrated on {date}. Use it";
     held: "held";
-    held_means: "Every parameter is fixed at its calibrated value.";
+    held_means: "Every parameter is held at its calibrated value.";
     observed: "observed";
     observed_means: "Every parameter is observed with the standard error of its calibration.";
     free: "free";
@@ -41,7 +41,6 @@ declare! { equipment {
     bars_seen(bars): "Scale bars seen in the photos: {bars}.";
     take_bars: "Add their distances";
     bars_taken(bars): "Distances added from scale bars seen in the photos: {bars}.";
-    with_colours(colours): "with lateral colour for {colours}";
     change_calibration(camera): "calibration of {camera} used";
     change_bars(n): "{n} {n:distance|distances} from scale bars";
 } }

@@ -12,11 +12,14 @@ declare! { experiments {
     run: "Run";
     run_again: "Run again";
     open_as_project: "Open as a project";
-    not_run_yet: "Run the experiment to see its figures. It takes a few seconds in the background; the page stays usable.";
+    not_run_yet: "The figures, beside those of the paper, appear here after a run of a few seconds. The page stays usable meanwhile.";
     inputs_changed: "The inputs have changed since the last run. Run again to update the figures.";
     ran_in(seconds): "run in {seconds} s";
     vary: "Inputs";
     network: "Network";
+    turn: "Turn the network in 3-D";
+    turned: "The network in 3-D";
+    not_turned(detail): "The 3-D view cannot be shown ({detail}): switch on hardware acceleration or WebGL in the browser.";
     drawing_shown: "network drawn";
     plan: "plan";
     elevation: "elevation";
@@ -99,7 +102,7 @@ declare! { experiments {
     in_left_out: "photos excluded from the second run";
     left_out_hint: "numbers, separated by spaces";
 
-    // What a name in a cell, on an axis or after a figure says
+    // Words for names in cells, on axes and after figures
     all: "all";
     reduced: "with photos excluded";
     control: "control";
@@ -123,7 +126,7 @@ declare! { experiments {
     planes: "two planes";
     all_photos: "all photos";
 
-    // What identifiers of tables and charts say
+    // Words for identifiers of tables and charts
     t_single: "60 networks at one distance";
     t_mixed: "16 networks of mixed distances";
     t_improvement: "Decrease of M₀ and Mₛ compared with two photos";

@@ -5,18 +5,18 @@ use crate::i18n::declare;
 
 declare! { inside {
     inside: "Inside the adjustment";
-    sentence(n, u, r): "{n} observations, {u} unknowns, redundancy {r}. Every number is the engine's.";
+    sentence(n, u, r): "{n} observations, {u} unknowns, redundancy {r}. All numbers are those of the adjustment.";
     sentence_before: "Matrices, steps, datum and tests of an adjustment.";
     equations: "Equations and matrices";
     datum: "Datum";
     errors: "Gross errors";
     weights: "Weights and target size";
     network: "Network";
-    lab: "Lab net (5 photos, 14 points)";
+    lab: "Lab network (5 photos, 14 points)";
     this_project: "This project";
     save_matrices: "Save matrices";
     computing: "Computing the matrices";
-    nothing: "This network cannot be adjusted yet. The message above or the step Adjustment gives the reason. Choose the lab net to look around.";
+    nothing: "This network cannot be adjusted yet. The message above or the step Adjustment gives the reason. Choose the lab network to explore this page.";
     observation: "Observation";
     observed(axis): "observed {axis}";
     computed(axis): "computed {axis}";
@@ -44,12 +44,24 @@ declare! { inside {
     design_matrix: "design matrix";
     normal_matrix: "= AᵀPA, normal matrix";
     reduced_matrix: "reduced, points eliminated";
+    cholesky_factor: "Cholesky factor, N = LLᵀ";
+    points_first: "points first";
+    photos_first: "photos first";
+    is_fill_in: "fill-in";
+    fill_in_is: "fill-in of L: not zero where N is zero";
+    factor_too_large(n): "In this order L has {n} entries, too many to compute for a picture.";
+    factor_singular: "N is singular: L does not exist.";
+    factor_held(n): "N has no factor without a datum: for L {n} photo unknowns are held, as in the iteration.";
     size_and_share(rows, columns, share): "{rows} × {columns}, {share} % filled";
     zoom_in: "Zoom in";
     zoom_out: "Zoom out";
     whole: "Show the whole matrix";
     point_at: "Point at a cell to read it; click to select it; the wheel zooms.";
-    share_of_largest: "size, as a share of the largest entry of the column";
+    share_of_largest: "darker: larger share of the largest entry of its column";
+    colours_are: "Colours of the entries";
+    of_photos: "column of a photo";
+    of_cameras: "of a camera";
+    of_points: "of a point";
     eliminated(kept, others):
         "N is block diagonal in the points, so they are eliminated first: {kept} unknowns are solved together in S, {others} follow point by point.";
     fill_in(n, points_first, photos_first):
@@ -61,15 +73,22 @@ declare! { inside {
     rotation: "rotation";
     correction: "dx";
     value: "value";
-    some_unknowns(most): "About {most} around the selected column are listed.";
     rotations_are:
         "dx is the change in the last step. Rotations are small rotations about the camera axes and have no value of their own.";
+    sigmas_at(sigma0): "σ at this step, with σ₀ {sigma0}.";
+    sigmas_unscaled: "σ at this step, a priori: there is no redundancy.";
+    no_sigmas: "σ is not computed for more than 600 unknowns.";
     back: "Back";
     step: "Step";
     run_all: "Run to the end";
     start_moved: "initial values off by";
     start_values: "initial values";
     step_of(length, unit): "step {length} {unit}";
+    movement: "Movements and residuals";
+    residuals_of_step: "Residuals in the photos";
+    photo_shown: "Photo shown";
+    vectors_at(factor, largest, unit): "Vectors × {factor}; the largest is {largest} {unit}.";
+    no_vectors: "Nothing has moved yet: take a step.";
     ellipses_at_one_scale: "Ellipses of 1 σ, all at the same scale";
     ellipse_size: "size";
     hold_by_click: "Click three points under Minimal constraints to hold those instead.";
@@ -88,6 +107,18 @@ declare! { inside {
     to_within(part): "to {part}";
     redundancy_and_sigma(r, sigma0): "redundancy {r}, σ₀ {sigma0}";
     of_image(part): "{part} of it from image coordinates";
+    s_transformation: "S-transformation";
+    s_transformation_is:
+        "Q computed in one datum becomes that of another without a new adjustment: G has the motions that change no observation, D the constraints of the new datum.";
+    after_transformation: "S-transformed";
+    adjusted_under(datum): "adjusted: {datum}";
+    transformed_is_adjusted(apart):
+        "The transformed covariances are those of the adjustment: they differ by at most {apart} of the standard errors.";
+    transformed_differs(apart): "The transformed covariances differ from those of the adjustment by {apart} of the standard errors.";
+    control_adds(apart):
+        "Control is more than a datum: its given coordinates are observations, so the covariances differ by up to {apart} of the standard errors.";
+    no_transformation:
+        "No S-transformation is shown here: the network has more than 600 unknowns, or held control coordinates are not unknowns.";
     not_seen: "Motions that change no observation";
     motions_of(n): "{n} motions of the whole network";
     changes_nothing(seen): "No observation changes: |A g| ≤ {seen} for a movement of 1.";
@@ -115,6 +146,7 @@ declare! { inside {
     largest_in: "… and the largest of all |w|";
     largest_w: "Largest |w|";
     hardest: "Hardest to check (smallest r)";
+    w_is: "w: residual divided by its own standard deviation. Without gross errors only one in a thousand exceeds the limit.";
     critical(w): "limit {w}";
     at_detectable(w): "{w}: expected at the minimal detectable bias";
     point_moves: "its point moves";
@@ -142,8 +174,9 @@ declare! { inside {
     lessons_hint: "Each takes about ten minutes, uses the screens next to it and asks for numbers shown there. Progress is stored in this browser.";
     minutes(n): "{n} min";
     answered_of(n, all): "{n} of {all} questions answered";
-    open_lesson: "Open a lesson file…";
-    no_lesson(why): "This file is not a lesson: {why}";
+    open_lesson: "Open a lesson or progress file…";
+    save_progress: "Save progress as a file";
+    no_lesson(why): "This file is neither a lesson nor progress: {why}";
     no_answer(why): "The answer cannot be computed: {why}";
     step_number(n, all): "step {n} of {all}";
     summary: "summary";

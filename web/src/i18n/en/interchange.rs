@@ -6,6 +6,8 @@ use crate::i18n::declare;
 declare! { interchange {
     reading: "Reading files";
     opened_from(format): "Opened from {format}";
+    opened_from_earlier: "Saved by an earlier version";
+    kept_by_earlier(ignored): "from an earlier version; not kept: {ignored}";
     read_from(format, files): "read from {format}: {files}";
     more_files(files, more): "{files} and {more} more";
     assumed: "Assumptions";
@@ -18,6 +20,8 @@ declare! { interchange {
     assumed_unit: "The files give no unit of length. The project's unit is only a name until you give a distance or control points in step 4.";
     assumed_corner: "The file does not say where in the upper left pixel its origin lies: the corner of the picture is taken.";
     assumed_chunk: "Coordinates are in the chunk's own system, because the reference system is geographic or a map projection.";
+    local_system: "Local coordinate system";
+    local_system_at(latitude, longitude, height): "Latitudes, longitudes and heights of lists were converted from the ellipsoid WGS84 (GRS80) to east, north, up in a Cartesian system at latitude {latitude}°, longitude {longitude}°, height {height} m. This is not a map projection; heights are taken as ellipsoidal heights. Further lists of this project use the same origin.";
     counted(name, count): "{name}: {count}";
     conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, at most {max} px, RMS {rms} px.";
     conversion_large: "This exceeds 0.05 px: it can affect residuals and coordinates.";

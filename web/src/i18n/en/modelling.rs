@@ -7,14 +7,14 @@ declare! { modelling {
     camera_model: "Camera model";
     converting: "converting the camera";
     converted(from, max, rms): "Converted from {from}: image points differ by at most {max} px (rms {rms} px).";
-    converted_part(percent): "This holds for {percent} % of the image; farther from the axis this model has no image.";
+    converted_part(percent): "This holds for {percent} % of the image; farther from the axis this model cannot project points.";
     converted_unknown: "The principal distance is not known yet, so the distortion starts at 0.";
     dropped(parameters): "A priori values of {parameters} do not exist in this model.";
     compare: "Compare models";
     compare_why: "Adjusts the network with each camera model and shows which of them the photos support. Switch off gross error handling first.";
     comparing: "comparing camera models";
     parameters: "Parameters";
-    held_out: "Held out";
+    held_out: "Cross-validation";
     held_out_why: "Root mean square error of a fifth of the image coordinates, predicted without them.";
     bic_why: "Bayesian information criterion (Schwarz) minus that of the best model: it weighs misfit against the number of parameters. A difference above 10 is clear.";
     best: "Best supported by the photos";

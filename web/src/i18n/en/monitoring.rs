@@ -41,7 +41,7 @@ declare! { monitoring {
     temperature: "Temperature °C";
     own_scale: "Own scale";
     details_hint: "σ₀ and redundancy of a list are those of its adjustment; without them, its standard errors count as exact.";
-    control_kept: "Control measured anew in each epoch";
+    control_kept: "Control points measured again in each epoch";
     raise(name): "Move {name} up";
     remove(name): "Remove {name}";
     date_refused(typed): "“{typed}” is not a date. Write it as 2026-03-14 or 2026-03-14T09:30.";
@@ -58,7 +58,7 @@ declare! { monitoring {
     ignored_points: "Ignored points";
     names_hint: "Names, separated by commas";
     common_points: "Common points";
-    common_words: "Press a name to make it a reference point; press again to undo.";
+    common_words: "Click a name to make it a reference point; click again to undo.";
     significance: "Error probability of each test, %";
     correction: "Correction for the number of points";
     holm: "Holm";
@@ -72,6 +72,9 @@ declare! { monitoring {
     method: "Method";
     method_coordinates: "coordinates of separate adjustments";
     method_joint: "joint, stable points in common";
+    shared_cameras: "Cameras shared by all epochs";
+    shared_cameras_hint: "Without a choice each epoch has its own cameras. Share a camera only if focus and zoom were not changed; this is tested.";
+    shared_cameras_none: "The epochs have no camera of the same name, or one of them is a list of points: no camera can be shared.";
     datum: "System";
     datum_reference: "transformed on the reference points";
     datum_given: "as given, not transformed";
@@ -94,7 +97,7 @@ declare! { monitoring {
     at_power(p, a): "power {p} %, α {a}";
     out_of_date: "Epochs or options have changed";
     out_of_date_words: "No numbers are shown until the epochs are compared again.";
-    against_first: "Against 0";
+    against_first: "Against epoch 0";
     is_reference: "epoch 0";
     n_moved(n): "{n} moved";
     none_moved: "none";
@@ -158,6 +161,7 @@ declare! { monitoring {
     drawing: "Drawing (DXF)";
     scene: "Arrows (glTF)";
     in_photos: "In the photos";
+    not_drawn(names, times): "Displacements × {times} that end outside the view of the camera are not drawn: {names}. Choose a smaller factor in Monitoring.";
     layer_displacements(times): "Displacements × {times}";
     table_file: "Table (CSV)";
     all_file: "All (JSON)";

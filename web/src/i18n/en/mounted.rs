@@ -14,10 +14,11 @@ declare! { mounted {
     photo_of(row, column): "Photo of camera {column} at exposure {row}";
     base(camera, first, base): "{camera} is {base} from {first}.";
     scatter(n, position, rotation): "{n} exposures scatter by {position} and {rotation} about the common relative pose.";
-    one_exposure: "One exposure alone: there is nothing to compare.";
-    two_cameras: "Photos taken together need two cameras with photos: give the photos of each camera a camera of their own.";
-    no_photo(name): "No photo is called {name}: type the name of a photo, or nothing where the camera took none.";
-    other_camera(photo, camera): "Photo {photo} is not of camera {camera}, whose photos stand in this column.";
-    no_sigma(typed): "“{typed}” is no standard error: a number greater than 0. The earlier value stays.";
+    outlier(first, own, position, rotation): "Photos {first} and {own} deviate by {position} and {rotation}, which chance does not explain: the mount moved, or they were not taken together. Correct the row, or delete it.";
+    one_exposure: "There is only one exposure, so nothing can be compared.";
+    two_cameras: "Photos taken together need two cameras with photos: assign the photos of each camera to a camera of its own.";
+    no_photo(name): "No photo is named {name}: type the name of a photo, or nothing if the camera took none.";
+    other_camera(photo, camera): "Photo {photo} is not of camera {camera}, to which this column belongs.";
+    no_sigma(typed): "“{typed}” is not a standard error: type a number above 0. The earlier value stays.";
     change_rig: "photos taken together";
 } }

@@ -54,7 +54,7 @@ declare! { planning {
     forbidden: "Places without access";
     forbidden_hint: "two corners: x, y, z, x, y, z";
     draw_region: "Draw in a view";
-    draw_region_hint: "Drag a rectangle in the plan or in an elevation view: no camera can stand in it, at any height or depth.";
+    draw_region_hint: "Drag a rectangle in the plan or in an elevation view: no camera can be placed in it, at any height or depth.";
     add_region: "Add";
     space_view: "3-D";
     ellipses_enlarged(times): "ellipses {times} times enlarged";
@@ -135,15 +135,21 @@ declare! { planning {
     sigma_c: "σ of c";
     second: "Second campaign";
     second_aside: "smallest detectable displacement";
+    #[expect(dead_code, reason = "said in a language that is given")]
     second_control(n): "Reference points: the {n} control points; their given coordinates take no part in the comparison.";
+    #[expect(dead_code, reason = "said in a language that is given")]
     second_datum(n): "Reference points: the {n} datum points.";
+    #[expect(dead_code, reason = "said in a language that is given")]
     second_all(n): "Reference points: all {n} points.";
+    #[expect(dead_code, reason = "said in a language that is given")]
     second_largest(point, length, unit, power, level): "The same photos are taken again and both results compared: every displacement of {length} {unit} or more is found with a probability of at least {power} %, point {point} being the weakest. Error probability {level} %.";
+    #[expect(dead_code, reason = "said in a language that is given")]
+    second_reference: "reference point";
     second_least: "weakest direction";
     second_show_all(n): "Show all {n}";
     second_none: "Detectable displacements need between 4 and 500 reference points: control points, else datum points, else all points that at least two photos see. Without given coordinates the network must be determined.";
     reached_adjusted: "Predicted and adjusted";
-    reached_words: "Largest standard errors of the points in both plan and adjustment, 1σ.";
+    reached_words: "Largest standard errors of the points that are in the plan and in the adjustment, 1σ.";
     predicted: "predicted";
     adjusted: "adjusted";
     stations: "Stations";

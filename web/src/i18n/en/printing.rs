@@ -45,9 +45,9 @@ declare! { printing {
     preview: "Preview of the sheet";
     ruler_of_print: "Ruler check";
     one_is_enough: "one sheet is enough";
-    ruler_across: "Measured length of 100 mm across";
-    ruler_down: "Measured length of 100 mm down";
-    as_across: "as across";
+    ruler_across: "Measured length of the horizontal 100 mm ruler";
+    ruler_down: "Measured length of the vertical 100 mm ruler";
+    as_across: "as horizontal";
     reading_sigma: "σ of the reading";
     not_measured: "Print a sheet at 100 %, without fitting to the page, and measure its rulers. The measured lengths correct diameters, printed distances and nominal coordinates.";
     print_scale(across, down, sigma, diameter):

@@ -18,7 +18,7 @@ declare! { projects {
     save_hint: "Download the project file without the photos";
     save_all_hint: "Download the project file including the original photos; photos may contain the place where they were taken (GPS)";
     photos_carry_places: "The file contains the original photos, which may contain the place where they were taken (GPS).";
-    save_with_photos: "Save the project file with the photos in it";
+    save_with_photos: "Download the project file with the photos";
     saving: "Saving";
     cannot_save(detail): "The file could not be saved: {detail}";
     open_project: "Open project…";
@@ -33,10 +33,10 @@ declare! { projects {
     marks_or_control(file): "{file} can be read as image measurements (photo, point, u, v) or as control points (id, X, Y, Z). Which is it?";
     is_empty: "the file is empty";
     file_empty(file): "{file}: the file is empty.";
-    is_no_list: "it contains neither image measurements (photo, point, u, v) nor control points (id, X, Y, Z)";
+    is_no_list: "it contains neither image measurements (photo, point, u, v) nor control points (id, X, Y, Z) nor distances between known points (from, to, length)";
     unsaved_here: "This project has changes that are not saved.";
     unsaved_in(name): "{name} has changes that are not saved.";
-    save_first: "Save with photos, then open";
+    save_first: "Download with photos, then open";
     go_on_unsaved: "Open without saving";
     undo_this(what): "Undo: {what}";
     redo_this(what): "Redo: {what}";
@@ -98,18 +98,18 @@ declare! { projects {
     deleted_projects: "Deleted projects";
     deleted_for_a_day: "kept for a day";
     put_back: "Put back";
-    keeps_nothing: "This browser stores nothing here. Save the project before you close the page.";
-    storage_full: "The storage of this computer is full: the last changes exist only in this page. Save the project as a file, or delete projects you no longer need.";
-    not_kept(detail): "The last changes could not be stored and exist only in this page ({detail}). Save the project as a file.";
+    keeps_nothing: "This browser stores nothing here. Download the project file before you close the page.";
+    storage_full: "The storage of this computer is full: the last changes exist only in this page. Download the project file, or delete projects you no longer need.";
+    not_kept(detail): "The last changes could not be stored and exist only in this page ({detail}). Download the project file.";
     photos_not_copied(n, detail):
-        "{n} {n:photo is|photos are} not copied into the browser's storage ({detail}). They are needed again when the project is reopened, unless it is saved with photos.";
+        "{n} {n:photo is|photos are} not copied into the browser's storage ({detail}). They are needed again when the project is reopened, unless you download it with photos.";
     no_room: "storage full";
     kept_unreadable(detail): "The stored project could not be read ({detail}). Nothing was deleted. If it is damaged, the start page offers the damaged file for download.";
     kept_by_newer(version): "A newer version of Sightline stored this project (format {version}). Reload the page to get that version.";
-    storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their saved files.";
-    cleared_under_page: "The browser cleared its storage while this page was open. This project is stored again with its photos; other projects are lost. Save it as a file as well: the browser may clear its storage again.";
-    cleared_with_photos(n): "The browser cleared its storage while this page was open. This project is stored again; {n} {n:photo is|photos are} lost and must be dropped on the page again. Save it as a file as well: the browser may clear its storage again.";
-    held_by_windows: "The browser cleared its storage, and another window of this page still holds its files: close the other windows. Until then the project exists only in this page; save it as a file.";
+    storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their downloaded files.";
+    cleared_under_page: "The browser cleared its storage while this page was open. This project is stored again with its photos; other projects are lost. Download the project file as well: the browser may clear its storage again.";
+    cleared_with_photos(n): "The browser cleared its storage while this page was open. This project is stored again; {n} {n:photo is|photos are} lost and must be dropped on the page again. Download the project file as well: the browser may clear its storage again.";
+    held_by_windows: "The browser cleared its storage, and another window of this page still holds its files: close the other windows. Until then the project exists only in this page; download the project file.";
     space_used(used, all): "{used} of {all} used";
     lasts: "kept when space runs short";
     may_be_cleared: "the browser may clear it when space runs short";

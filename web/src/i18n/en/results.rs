@@ -16,10 +16,10 @@ declare! { results {
     save_svg: "Save SVG";
     sigma0_name: "σ₀, standard deviation of unit weight";
     sigma0_means: "Size of the residuals relative to the assumed accuracy of the observations; 1 if the assumption is right. All standard errors of the result include it.";
-    sigma0_do: "Well above 1: look for gross errors, then for camera distortion that is not modelled; if neither is the cause, the assumed standard deviations are too small. Well below 1: they are too large.";
+    sigma0_do: "Well above 1: look for gross errors, then for camera distortion that is not modelled; if neither is the cause, the assumed standard errors are too small. Well below 1: they are too large.";
     global_name: "Global test";
     global_means: "Whether σ₀ differs from 1 only by chance. A correct adjustment fails the test in 5 of 100 cases.";
-    global_do: "Failed with σ₀ above 1: check the worst observations first. Failed with σ₀ below 1: the assumed standard deviations are too large; the coordinates are the same.";
+    global_do: "Failed with σ₀ above 1: check the worst observations first. Failed with σ₀ below 1: the assumed standard errors are too large; the coordinates are the same.";
     redundancy_means: "The number of observations minus the number of unknowns: the surplus checks the others.";
     redundancy_do: "With low redundancy, errors go undetected: measure points in more photos, add photos.";
     rms_residual_means: "How well the adjusted rays fit the image measurements, in pixels.";
@@ -31,7 +31,7 @@ declare! { results {
     check_rms_means: "Differences at points with known coordinates that were not used in the adjustment: the only independent measure of accuracy here.";
     check_rms_do: "Much larger than the standard errors: scale, datum, camera or the check points themselves are wrong.";
     w_name: "w, test of a single observation";
-    w_means(limit): "A residual divided by its own standard deviation. It exceeds {limit} by chance in one of a thousand cases.";
+    w_means(limit): "A residual divided by its own standard error. It exceeds {limit} by chance in one of a thousand cases.";
     w_do: "Check the largest in its photo first: one gross error enlarges others. Measure it again or exclude it, then adjust again.";
     r_name: "r, redundancy number";
     r_means: "The part of an error in this observation that appears in its own residual: from 0, nothing, to 1, all of it.";
@@ -43,7 +43,7 @@ declare! { results {
     significance_means: "A distortion parameter divided by its standard error: below 2 it is not significantly different from 0.";
     significance_do: "Hold it at 0, unless the calibration is used for other photos.";
     correlation_name: "Correlation";
-    correlation_means(limit): "Correlation of the two parameters: beyond {limit} the network hardly separates them.";
+    correlation_means(limit): "Correlation of the two parameters: above {limit} the network hardly separates them.";
     correlation_do: "Rotate the camera by 90°, vary distance and direction; or hold the less important of the two.";
 
     // Results

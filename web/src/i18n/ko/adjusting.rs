@@ -81,13 +81,13 @@ translate! { Korean adjusting {
     photo_not_oriented(photo): "사진 {photo}{photo:을|를} 표정하지 못했습니다";
     photo_no_points: "측정된 점이 없습니다. 다른 설정으로 검출하거나 점을 직접 지정하십시오.";
     photo_too_few(determined, needed): "다른 사진이나 기준점으로 알려진 점이 {determined}개뿐입니다. {needed}개가 필요합니다.";
-    photo_disagrees(determined): "점 {determined}개가 서로 맞지 않습니다. 틀린 점번호나 다른 카메라가 아닌지 확인하십시오.";
+    photo_disagrees(determined): "점 {determined}개가 서로 맞지 않습니다. 틀린 점 이름나 다른 카메라가 아닌지 확인하십시오.";
     photo_other_group(group): "사진 묶음 {group}에 속하며, 표정된 사진들과 공통점이 부족합니다.";
     c_weak(camera, value): "카메라 {camera}의 주점거리({value})가 약하게 결정됩니다";
     c_weak_body: "고정하거나 표준오차가 있는 관측값으로 주거나, 수렴 촬영과 90° 회전 촬영을 추가하십시오.";
     c_undetermined: "정해지지 않음";
     c_changed(camera, given, value): "카메라 {camera}의 주점거리: 주어진 값 {given}, 사진에서 구한 값 {value}";
-    c_changed_body: "대개 렌즈, 줌, 사진 크기가 다른 경우입니다. 아니면 틀린 점번호가 있는지 확인하십시오.";
+    c_changed_body: "대개 렌즈, 줌, 사진 크기가 다른 경우입니다. 아니면 틀린 점 이름이 있는지 확인하십시오.";
     photo_groups(n): "사진이 서로 연결되지 않은 {n}개 묶음으로 나뉩니다";
     photo_groups_body(groups): "공통점을 측정하거나 사이의 사진을 더하십시오. 첫 묶음만 표정되었습니다: {groups}";
     photo_ambiguous(photo): "사진 {photo}의 알려진 점에 두 가지 표정이 똑같이 맞습니다";
@@ -96,13 +96,13 @@ translate! { Korean adjusting {
     point_not_measured: "어느 사진에서도 측정되지 않았습니다.";
     point_too_few(photos): "표정된 사진 {photos}매에서만 측정되었습니다. 두 매가 필요합니다.";
     point_parallel(angle): "광선 교차각이 {angle}°에 불과합니다. 다른 방향에서 찍은 사진에서 측정하십시오.";
-    point_behind(photo): "사진 {photo}의 카메라 뒤에 놓입니다. 그 사진의 점번호를 확인하십시오.";
-    point_disagrees: "광선이 교차하지 않습니다. 각 사진의 점번호를 확인하십시오.";
+    point_behind(photo): "사진 {photo}의 카메라 뒤에 놓입니다. 그 사진의 점 이름을 확인하십시오.";
+    point_disagrees: "광선이 교차하지 않습니다. 각 사진의 점 이름을 확인하십시오.";
     point_no_coordinates: "좌표가 없는 기준점 또는 검사점입니다.";
     point_undecided(first, second):
-        "광선이 두 위치에서 같은 수로 교차합니다(사진 {first}, 사진 {second}). 두 표적에 같은 점번호가 붙었습니다. 하나의 이름을 바꾸십시오.";
+        "광선이 두 위치에서 같은 수로 교차합니다(사진 {first}, 사진 {second}). 두 표적에 같은 점 이름이 붙었습니다. 하나의 이름을 바꾸십시오.";
     measurement_disagrees(point, photo): "사진 {photo}의 점 {point}{point:이|가} 다른 측정과 맞지 않습니다";
-    measurement_disagrees_body: "대개 점번호가 틀린 경우입니다. 확인하여 이름을 바꾸거나 제외하십시오.";
+    measurement_disagrees_body: "대개 점 이름이 틀린 경우입니다. 확인하여 이름을 바꾸거나 제외하십시오.";
     behind: "뒤쪽";
 
     // Questions about the input
@@ -129,7 +129,7 @@ translate! { Korean adjusting {
     field_of_view(camera, value): "카메라 {camera}: 주점거리 {value}{value:은|는} 옳은 값일 수 없습니다";
     field_of_view_body: "있을 수 없는 화각이 되므로 이 값을 쓰지 않았습니다.";
     field_of_view_pixels:
-        "카메라에 화소 크기가 없어 값이 픽셀 단위가 되므로 쓰지 않았습니다. 화소 크기나 픽셀 단위의 값을 주십시오.";
+        "카메라에 화소 크기가 없어 값이 화소 단위가 되므로 쓰지 않았습니다. 화소 크기나 화소 단위의 값을 주십시오.";
     image_size(camera, photos): "사진 {photos}{photos:이|가} 카메라 {camera}의 영상보다 큽니다";
     image_size_body(size): "카메라의 영상 크기는 {size} px입니다. 사진에 맞는 카메라나 검정값을 고르십시오.";
     photo_resized(photo, camera): "사진 {photo}{photo:은|는} 카메라 {camera}의 영상과 크기가 다릅니다";

@@ -19,9 +19,9 @@ translate! { Korean changes {
     change_observation_removed(point, photo): "사진 {photo}의 점 {point} 관측 삭제";
     change_observation_switched(point, photo): "사진 {photo}의 점 {point} 제외 또는 포함";
     change_point_removed(point): "점 {point} 삭제";
-    change_marks_taken(n): "측정점 {n}개 적용";
+    change_marks_taken(n): "측정값 {n}개 가져옴";
     change_matched(n): "관측 {n}개 정합";
-    change_control_taken(n): "기준점 {n}개 적용";
+    change_control_taken(n): "기준점 {n}개 가져옴";
     change_role(point): "점 {point} 구분 변경";
     change_distance_added(from, to): "거리 {from} – {to} 추가";
     change_distance_edited(from, to): "거리 {from} – {to} 변경";
@@ -105,7 +105,7 @@ translate! { Korean changes {
     gross_statistic: "τ 또는 경중률";
     gross_limit: "한계";
     photo_or_kind: "사진 또는 종류";
-    gross_consequence: "함께 제거: 광선 하나만 남음";
+    gross_consequence: "함께 제외: 광선 하나만 남음";
     control_coordinate: "기준점 좌표";
     projection_centre: "투영중심";
     distance: "거리";
@@ -124,15 +124,15 @@ translate! { Korean changes {
     narrow(points): "광선 교차각이 5° 미만인 점: {points}";
     narrow_body: "깊이가 약하게 결정됩니다. 옆에서 찍은 사진을 추가하십시오.";
     behind_camera(names): "점을 측정한 카메라의 뒤에 놓인 점: {names}";
-    behind_camera_body: "이 사진들의 점번호를 확인하십시오.";
+    behind_camera_body: "이 사진들의 점 이름을 확인하십시오.";
     distance_unused(names): "쓰지 않은 거리: {names}";
     distance_unused_body: "한쪽 끝점이 측정된 사진이 두 매 미만입니다. 더 많은 사진에서 측정하십시오.";
     control_misfit(point, size, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size} 다름, 주로 {axis} 방향";
-    control_misfit_body: "좌표와 사진에서의 점번호를 확인하십시오.";
+    control_misfit_body: "좌표와 사진에서의 점 이름을 확인하십시오.";
     exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보임";
     exchanged_points_body: "두 점의 좌표를 맞바꾸면 맞습니다.";
     double_points(pairs): "같은 점일 수 있는 점: {pairs}";
-    double_points_body: "표준오차로 구분되지 않을 만큼 가깝습니다. 한 점이면 같은 점번호를 주십시오.";
+    double_points_body: "표준오차로 구분되지 않을 만큼 가깝습니다. 한 점이면 같은 점 이름을 주십시오.";
     unsettled: "과대오차 탐색이 수렴하지 않았습니다";
-    unsettled_body: "서로 어긋나는 관측이 너무 많습니다. 점번호와 기준점부터 확인하십시오.";
+    unsettled_body: "서로 어긋나는 관측이 너무 많습니다. 점 이름과 기준점부터 확인하십시오.";
 } }

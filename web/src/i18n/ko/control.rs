@@ -9,10 +9,10 @@ translate! { Korean control {
     control_sentence(control, check, distances): "기준점 {control}개, 검사점 {check}개, 거리 {distances}개.";
     open_control: "기준점 파일 열기…";
     control_points: "기준점";
-    paste_control(axes, sigmas): "행을 붙여 넣으십시오: 점번호, {axes}, {sigmas}";
+    paste_control(axes, sigmas): "행을 붙여 넣으십시오: 점 이름, {axes}, {sigmas}";
     pasted: "기준점, 붙여넣기";
     rows_read(all, bad): "{all}행 중 {bad}행 해석 불가";
-    take_points(n): "{n}점 적용";
+    take_points(n): "점 {n}개 가져오기";
     measured: "측정됨";
     not_measured: "어느 사진에서도 측정되지 않음";
     fixed: "고정";
@@ -22,7 +22,7 @@ translate! { Korean control {
     distance_length: "길이를 양수로 입력하십시오. 예: 1250.4";
     distance_sigma: "이 길이의 표준오차를 양수로 입력하십시오. 예: 0.02";
     add_distance: "추가";
-    remove_distance: "거리 지우기";
+    remove_distance: "거리 삭제";
     from_point: "시점";
     to_point: "종점";
     length: "길이";

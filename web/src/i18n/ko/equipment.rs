@@ -40,7 +40,6 @@ translate! { Korean equipment {
     bars_seen(bars): "사진에 보이는 축척 막대: {bars}.";
     take_bars: "거리 추가";
     bars_taken(bars): "사진에 보이는 축척 막대의 거리를 추가했습니다: {bars}.";
-    with_colours(colours): "{colours}의 배율 색수차 포함";
     change_calibration(camera): "{camera} 검정 값 사용";
     change_bars(n): "축척 막대 거리 {n}개";
 } }

@@ -16,9 +16,9 @@ translate! { Korean errors {
     initial_values(things): "초기값이 없습니다: {things}";
     not_solved(causes): "망을 풀 수 없습니다: {causes}";
     control_disagrees_all(disagreeing):
-        "기준점 {disagreeing}{disagreeing:이|가} 사진과도 서로와도 맞지 않고, 맞는 기준점이 없습니다. 네 점 이상이 맞아야 합니다. 좌표, 축, 단위, 점번호를 확인하십시오. 두 점이 서로 바뀌었을 수도 있습니다";
+        "기준점 {disagreeing}{disagreeing:이|가} 사진과도 서로와도 맞지 않고, 맞는 기준점이 없습니다. 네 점 이상이 맞아야 합니다. 좌표, 축, 단위, 점 이름을 확인하십시오. 두 점이 서로 바뀌었을 수도 있습니다";
     control_disagrees(disagreeing, n, agreeing):
-        "기준점 {disagreeing}{disagreeing:이|가} 사진 및 다른 기준점과 맞지 않고, {n}점({agreeing})만 맞습니다. 네 점 이상이고 전체의 절반 이상이 맞아야 합니다. 좌표, 축, 단위, 점번호를 확인하십시오";
+        "기준점 {disagreeing}{disagreeing:이|가} 사진 및 다른 기준점과 맞지 않고, {n}점({agreeing})만 맞습니다. 네 점 이상이고 전체의 절반 이상이 맞아야 합니다. 좌표, 축, 단위, 점 이름을 확인하십시오";
     stopped: "요청에 따라 중지했습니다";
     and_more(names, more): "{names} 외 {more}";
     no_datum(missing): "기준계 매개변수 7개(위치, 자세, 축척) 가운데 {missing}개가 정해지지 않았습니다. 기준점이나 거리를 더하거나 최소구속 또는 자유망을 고르십시오";

@@ -11,11 +11,14 @@ translate! { Korean experiments {
     run: "실행";
     run_again: "다시 실행";
     open_as_project: "프로젝트로 열기";
-    not_run_yet: "실행하면 수치가 나타납니다. 배경에서 몇 초 걸리며 그동안 페이지를 계속 쓸 수 있습니다.";
+    not_run_yet: "몇 초 동안 실행한 뒤 논문의 값과 나란히 여기에 수치가 나타납니다. 그동안에도 페이지를 쓸 수 있습니다.";
     inputs_changed: "마지막 실행 뒤에 입력이 바뀌었습니다. 다시 실행하면 새 입력의 수치가 나타납니다.";
     ran_in(seconds): "{seconds} s에 실행";
     vary: "입력값";
     network: "망";
+    turn: "망을 3차원으로 돌려 보기";
+    turned: "3차원 망";
+    not_turned(detail): "3차원 보기를 표시할 수 없습니다({detail}). 브라우저에서 하드웨어 가속이나 WebGL을 켜십시오.";
     drawing_shown: "그린 망";
     plan: "평면";
     elevation: "입면";
@@ -72,7 +75,7 @@ translate! { Korean experiments {
     plates_description: "카메라와 건판 설명";
     plates_files: "파일에서 읽음값…";
     plates_scans: "스캔에서 측정한 값";
-    plates_scans_words: "스캔 사진: 표적 단계에서 지표와 점을 찍고, 점번호 단계에서 지표를 위와 같은 이름으로 지정한 뒤 여기로 돌아오십시오.";
+    plates_scans_words: "스캔 사진: 표적 단계에서 지표와 점을 찍고, 점 이름 단계에서 지표를 위와 같은 이름으로 지정한 뒤 여기로 돌아오십시오.";
     plates_reduced(photos, observations): "사진 {photos}매 변환, 관측 {observations}개.";
 
     // Inputs
@@ -92,7 +95,7 @@ translate! { Korean experiments {
     in_left_out: "두 번째 조정에서 뺄 사진";
     left_out_hint: "번호를 빈칸으로 구분";
 
-    // What a name in a cell, on an axis or after a figure says
+    // Words for names in cells, on axes and after figures
     all: "전체";
     reduced: "사진을 뺀 뒤";
     control: "기준점";
@@ -116,7 +119,7 @@ translate! { Korean experiments {
     planes: "두 평면";
     all_photos: "전체 사진";
 
-    // What identifiers of tables and charts say
+    // Words for identifiers of tables and charts
     t_single: "한 거리의 망 60개";
     t_mixed: "여러 거리를 섞은 망 16개";
     t_improvement: "사진 2매에 대한 M₀, Mₛ의 감소";
@@ -127,7 +130,7 @@ translate! { Korean experiments {
     t_reductions: "보정 방법별 광속조정 결과";
     t_photos: "사진별 잔차";
     t_parameters: "카메라 매개변수";
-    t_two_rays: "사진 두 장에만 찍힌 점";
+    t_two_rays: "사진 두 매에만 찍힌 점";
     t_estimators: "참값과 비교한 표적 중심, 좋은 순";
     t_standard_errors: "표준오차";
     t_free_gain: "자유망의 향상률";

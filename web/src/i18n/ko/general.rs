@@ -66,8 +66,8 @@ translate! { Korean general {
     file: "파일";
     width: "너비";
     height: "높이";
-    model: "모델";
-    point_column: "점번호";
+    model: "모형";
+    point_column: "점 이름";
     target_column: "표적";
     code: "코드";
     all_rows: "전체";

@@ -41,12 +41,24 @@ translate! { Korean inside {
     design_matrix: "계획행렬";
     normal_matrix: "= AᵀPA, 정규행렬";
     reduced_matrix: "축약, 점 소거 후";
+    cholesky_factor: "촐레스키 인수, N = LLᵀ";
+    points_first: "점 먼저";
+    photos_first: "사진 먼저";
+    is_fill_in: "채움";
+    fill_in_is: "L의 채움: N에서는 0이지만 L에서는 0이 아닌 값";
+    factor_too_large(n): "이 순서에서는 L의 값이 {n}개여서 그림으로 그리기에는 너무 많습니다.";
+    factor_singular: "N이 특이행렬이므로 L이 없습니다.";
+    factor_held(n): "기준계가 없으면 N은 분해할 수 없습니다. L을 구할 때는 반복에서와 같이 사진 미지수 {n}개를 고정합니다.";
     size_and_share(rows, columns, share): "{rows} × {columns}, {share} % 채움";
     zoom_in: "확대";
     zoom_out: "축소";
     whole: "전체 행렬 보기";
     point_at: "칸을 가리키면 값을 읽고, 누르면 선택합니다. 휠로 확대합니다.";
-    share_of_largest: "열에서 가장 큰 값에 대한 비율";
+    share_of_largest: "진할수록 열에서 가장 큰 값에 대한 비율이 큼";
+    colours_are: "값의 색";
+    of_photos: "사진의 열";
+    of_cameras: "카메라의 열";
+    of_points: "점의 열";
     eliminated(kept, others): "N은 점에 대해 블록 대각이므로 점을 먼저 소거합니다. S에서 미지수 {kept}개를 함께 풀고, 나머지 {others}개는 점마다 따로 구합니다.";
     fill_in(n, points_first, photos_first):
         "N의 대각 이하에는 {n}개의 값이 있습니다. 촐레스키 인수의 값은 점을 먼저 소거하면 {points_first}개, 사진을 먼저 소거하면 {photos_first}개입니다.";
@@ -57,14 +69,21 @@ translate! { Korean inside {
     rotation: "회전";
     correction: "dx";
     value: "값";
-    some_unknowns(most): "선택한 열 주변의 약 {most}개만 표시합니다.";
     rotations_are: "dx는 마지막 반복에서의 변화입니다. 회전은 카메라 축에 대한 미소 회전이며 고유한 값이 없습니다.";
+    sigmas_at(sigma0): "σ는 이 단계의 값이며 σ₀ {sigma0}을 씁니다.";
+    sigmas_unscaled: "σ는 이 단계의 사전 값입니다. 잉여도가 없습니다.";
+    no_sigmas: "미지수가 600개를 넘으면 σ를 계산하지 않습니다.";
     back: "뒤로";
     step: "한 단계";
     run_all: "끝까지";
     start_moved: "초기값을 벗어나게";
     start_values: "초기값";
     step_of(length, unit): "변화 {length} {unit}";
+    movement: "이동과 잔차";
+    residuals_of_step: "사진의 잔차";
+    photo_shown: "표시할 사진";
+    vectors_at(factor, largest, unit): "벡터 × {factor}, 가장 큰 값은 {largest} {unit}입니다.";
+    no_vectors: "아직 움직인 것이 없습니다. 한 단계를 진행하십시오.";
     ellipses_at_one_scale: "1 σ 타원, 모두 같은 축척";
     ellipse_size: "크기";
     hold_by_click: "최소구속에서 세 점을 누르면 고정할 점을 바꿀 수 있습니다.";
@@ -83,6 +102,16 @@ translate! { Korean inside {
     to_within(part): "{part} 이내";
     redundancy_and_sigma(r, sigma0): "잉여도 {r}, σ₀ {sigma0}";
     of_image(part): "그중 사진좌표에서 {part}";
+    s_transformation: "S 변환";
+    s_transformation_is:
+        "한 기준계에서 구한 Q는 다시 조정하지 않고도 다른 기준계의 Q로 바꿀 수 있습니다. G는 관측값을 바꾸지 않는 움직임, D는 새 기준계의 구속조건입니다.";
+    after_transformation: "S 변환 후";
+    adjusted_under(datum): "직접 조정: {datum}";
+    transformed_is_adjusted(apart): "변환한 공분산은 직접 조정한 공분산과 같습니다. 차이는 표준오차의 {apart} 이하입니다.";
+    transformed_differs(apart): "변환한 공분산과 직접 조정한 공분산의 차이는 표준오차의 {apart}입니다.";
+    control_adds(apart):
+        "기준점은 기준계 이상의 것입니다. 주어진 좌표가 관측값이므로 공분산이 표준오차의 {apart}까지 다릅니다.";
+    no_transformation: "이 망에서는 S 변환을 보일 수 없습니다. 미지수가 600개를 넘거나, 고정된 기준점 좌표가 미지수가 아닙니다.";
     not_seen: "관측값을 바꾸지 않는 움직임";
     motions_of(n): "망 전체의 움직임 {n}가지";
     changes_nothing(seen): "어떤 관측값도 변하지 않습니다. 1만큼 움직일 때 |A g| ≤ {seen}.";
@@ -108,6 +137,7 @@ translate! { Korean inside {
     largest_in: "… 그리고 모든 |w| 중 가장 큼";
     largest_w: "가장 큰 |w|";
     hardest: "가장 점검하기 어려움 (작은 r)";
+    w_is: "w: 잔차를 그 잔차의 표준편차로 나눈 값. 과대오차가 없으면 한계를 넘는 값은 천 개 중 하나입니다.";
     critical(w): "한계 {w}";
     at_detectable(w): "{w}: 최소 검출 가능 오차에서의 기댓값";
     point_moves: "그 점의 이동";
@@ -135,8 +165,9 @@ translate! { Korean inside {
     lessons_hint: "과정마다 약 10분이 걸립니다. 옆 화면을 직접 움직이며, 화면에 있는 숫자를 묻습니다. 진도는 이 브라우저에 저장됩니다.";
     minutes(n): "{n}분";
     answered_of(n, all): "질문 {all}개 중 {n}개 정답";
-    open_lesson: "과정 파일 열기…";
-    no_lesson(why): "과정 파일이 아닙니다: {why}";
+    open_lesson: "과정 또는 진도 파일 열기…";
+    save_progress: "진도를 파일로 저장";
+    no_lesson(why): "과정 파일도 진도 파일도 아닙니다: {why}";
     no_answer(why): "답을 계산할 수 없습니다: {why}";
     step_number(n, all): "{all}단계 중 {n}단계";
     summary: "요약";

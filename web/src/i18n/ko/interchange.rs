@@ -1,11 +1,15 @@
 //! 다른 프로그램의 파일에 관한 글: 들어온 것과 그 프로그램용으로 쓰는 것.
 
+use sightline::project::RemovedFields;
+
 use super::{Korean, choose};
 use crate::i18n::translate;
 
 translate! { Korean interchange {
     reading: "파일 읽는 중";
     opened_from(format): "{format} 파일에서 열었음";
+    opened_from_earlier: "이전 판에서 저장한 프로젝트";
+    kept_by_earlier(ignored): "이전 판에서 저장함. 남기지 않은 것: {ignored}";
     read_from(format, files): "{format}에서 읽음: {files}";
     more_files(files, more): "{files} 외 {more}개";
     assumed: "가정";
@@ -18,6 +22,8 @@ translate! { Korean interchange {
     assumed_unit: "파일에 길이 단위가 없습니다. 4단계에서 거리나 기준점을 주기 전까지 프로젝트의 단위는 이름일 뿐입니다.";
     assumed_corner: "파일에 왼쪽 위 화소의 어디가 원점인지 적혀 있지 않아 사진의 모서리로 보았습니다.";
     assumed_chunk: "기준 좌표계가 지리 좌표계나 지도 투영 좌표계이므로 좌표는 청크 자체의 좌표계입니다.";
+    local_system: "국지 좌표계";
+    local_system_at(latitude, longitude, height): "목록의 위도, 경도, 높이를 WGS84(GRS80) 타원체에서 위도 {latitude}°, 경도 {longitude}°, 높이 {height} m를 원점으로 하는 동·북·상 직각좌표로 변환했습니다. 지도 투영이 아니며 높이는 타원체고로 보았습니다. 이 프로젝트의 다음 목록도 같은 원점을 씁니다.";
     counted(name, count): "{name}: {count}";
     conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, 최대 {max} px, RMS {rms} px.";
     conversion_large: "0.05 px를 넘습니다. 잔차와 좌표에 나타날 수 있습니다.";
@@ -78,9 +84,9 @@ translate! { Korean interchange {
 pub fn ignored(name: &str) -> Option<&'static str> {
     Some(match name {
         "cameras without orientation" => "표정되지 않은 카메라",
-        "colours" => "색별 차이",
         "colours and errors of points" => "점의 색과 오차",
         "colours of points" => "점의 색",
+        RemovedFields::OF_PHOTOS => "사진을 측정한 색",
         "disabled observations" => "사용하지 않는 관측값",
         "distances" => "거리",
         "features" => "측정한 형상",
@@ -93,6 +99,8 @@ pub fn ignored(name: &str) -> Option<&'static str> {
         "images" => "영상",
         "interior orientations of photos" => "사진별 내부표정",
         "keypoints of no point" => "점이 없는 특징점",
+        RemovedFields::OF_CAMERAS => "카메라의 배율 색수차와 이를 쓴 결과",
+        RemovedFields::OF_REPORT => "보고서의 배율 색수차",
         "markers" => "마커",
         "measurements in cameras without orientation" => "표정되지 않은 카메라의 관측값",
         "measurements in photos without a sensor" => "센서가 없는 사진의 관측값",
@@ -107,11 +115,13 @@ pub fn ignored(name: &str) -> Option<&'static str> {
         "pixel_pitch" => "화소 크기(mm)",
         "points without coordinates" => "좌표가 없는 점",
         "points3D" => "points3D",
+        "geographic positions of photos" => "사진의 지리 좌표",
         "poses of rigs" => "리그의 자세",
         "poses without a view" => "영상이 없는 자세",
         "principal points and sizes of pictures" => "주점과 영상 크기",
         "reference coordinates of cameras" => "카메라의 기준 좌표",
         "reference coordinates of markers" => "마커의 기준 좌표",
+        "rigs" => "리그",
         "scalebars" => "스케일바",
         "sigma" => "매개변수의 사전 표준오차",
         "standard errors of observations" => "관측값의 표준오차",

@@ -14,7 +14,7 @@ translate! { Korean modelling {
     compare_why: "카메라 모형마다 망을 조정하여 어느 모형이 사진과 잘 맞는지 보입니다. 과대오차 처리는 먼저 끄십시오.";
     comparing: "카메라 모형 비교 중";
     parameters: "매개변수";
-    held_out: "제외 예측";
+    held_out: "교차 검증";
     held_out_why: "사진좌표의 5분의 1을 빼고 조정하여 예측한 값과의 차이(RMS)입니다.";
     bic_why: "베이즈 정보 기준(Schwarz)에서 가장 나은 모형의 값을 뺀 것으로, 적합도와 매개변수 수를 함께 봅니다. 10을 넘으면 뚜렷합니다.";
     best: "사진과 가장 잘 맞음";

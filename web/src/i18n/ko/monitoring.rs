@@ -6,9 +6,9 @@ use crate::i18n::translate;
 translate! { Korean monitoring {
     monitoring: "변위 감시";
     monitoring_words: "한 대상물을 여러 시기에 측정하여 무엇이 얼마나 움직였는지, 얼마나 확실한지 검정합니다.";
-    sentence: "안정한 기준점에 대한 시기 사이의 변위와 그 검정.";
+    sentence: "안정한 참조점에 대한 시기 사이의 변위와 그 검정.";
     sample: "세 시기 예제 열기";
-    sample_words: "모의 댐 면입니다. 일부 표적은 표준오차의 3배와 10배만큼 움직였고 기준점 하나는 안정하지 않습니다.";
+    sample_words: "모의 댐 면입니다. 일부 표적은 표준오차의 3배와 10배만큼 움직였고 참조점 하나는 안정하지 않습니다.";
     simulated: "모의";
     comparing: "시기 비교";
     compare: "비교";
@@ -17,8 +17,8 @@ translate! { Korean monitoring {
     over_time: "시간에 따른 점";
 
     new_epoch: "새 시기";
-    new_epoch_words: "이 프로젝트의 이름, 기준점, 축척 막대, 역할, 카메라를 이어받는 새 프로젝트입니다. 사진만 넣으면 됩니다.";
-    next_epoch_photos(name): "{name}의 다음 시기입니다. 이름, 기준점, 축척 막대, 역할, 카메라를 이어받았습니다. 이 시기의 사진을 놓으십시오.";
+    new_epoch_words: "이 프로젝트의 이름, 기준점, 축척 막대, 점 구분, 카메라를 이어받는 새 프로젝트입니다. 사진만 넣으면 됩니다.";
+    next_epoch_photos(name): "{name}의 다음 시기입니다. 이름, 기준점, 축척 막대, 점 구분, 카메라를 이어받았습니다. 이 시기의 사진을 놓으십시오.";
     compare_with(name): "{name}{name:과|와} 비교";
     first_is_gone(name): "0번 시기 {name}의 현재 조정 결과가 이 브라우저에 없습니다. 그 프로젝트 파일을 여기에 더하십시오.";
     epochs: "시기";
@@ -51,12 +51,12 @@ translate! { Korean monitoring {
     not_compared: "시기를 비교하지 못했습니다.";
 
     options: "설정";
-    reference_points: "기준점";
+    reference_points: "참조점";
     reference_means: "안정하다고 가정하는 점이며 이 가정을 검정합니다. 비워 두면 프로젝트의 기준점, 없으면 기준계 점, 그것도 없으면 모든 공통점을 씁니다.";
     ignored_points: "제외할 점";
     names_hint: "이름을 쉼표로 구분";
     common_points: "공통점";
-    common_words: "이름을 누르면 기준점이 되고, 다시 누르면 풀립니다.";
+    common_words: "이름을 누르면 참조점이 되고, 다시 누르면 풀립니다.";
     significance: "각 검정의 유의수준, %";
     correction: "점 개수에 따른 보정";
     holm: "Holm";
@@ -70,8 +70,11 @@ translate! { Korean monitoring {
     method: "방법";
     method_coordinates: "따로 조정한 좌표";
     method_joint: "안정점을 공유하는 공동 조정";
+    shared_cameras: "모든 시기가 공유하는 카메라";
+    shared_cameras_hint: "선택하지 않으면 시기마다 카메라를 따로 둡니다. 초점과 줌이 그대로인 카메라만 공유하십시오. 같은 카메라인지 검정합니다.";
+    shared_cameras_none: "모든 시기에 같은 이름의 카메라가 없거나, 점 목록인 시기가 있어 공유할 카메라가 없습니다.";
     datum: "좌표계";
-    datum_reference: "기준점으로 변환";
+    datum_reference: "참조점으로 변환";
     datum_given: "주어진 그대로";
     thresholds: "변위 관리 기준";
     warning: "주의";
@@ -91,7 +94,7 @@ translate! { Korean monitoring {
     at_power(p, a): "검정력 {p} %, α {a}";
     out_of_date: "시기나 설정이 바뀌었습니다";
     out_of_date_words: "다시 비교할 때까지 수치를 표시하지 않습니다.";
-    against_first: "0번 대비";
+    against_first: "0번 시기 대비";
     is_reference: "0번 시기";
     n_moved(n): "{n}점 변위";
     none_moved: "없음";
@@ -111,7 +114,7 @@ translate! { Korean monitoring {
     elimination_aside: "제거한 점의 Ω, 나머지의 T";
     second_opinion: "제2 판정";
     second_opinion_aside: "L1 기준계: 변위의 합이 최소";
-    all_stable: "이 기준계에서도 기준점이 모두 안정합니다.";
+    all_stable: "이 기준계에서도 참조점이 모두 안정합니다.";
     unstable_are(names): "이 기준계에서 불안정: {names}.";
     notes: "참고";
 
@@ -146,11 +149,12 @@ translate! { Korean monitoring {
     ellipses(percent): "오차타원 {percent} %";
     legend_moved: "변위";
     legend_stable: "안정";
-    legend_reference: "기준점";
-    legend_out: "불안정한 기준점";
+    legend_reference: "참조점";
+    legend_out: "불안정한 참조점";
     drawing: "도면 (DXF)";
     scene: "화살표 (glTF)";
     in_photos: "사진에서 보기";
+    not_drawn(names, times): "{times}배 변위의 끝이 카메라 시야 밖이어서 표시하지 않은 점: {names}. 변위 감시에서 배율을 줄이십시오.";
     layer_displacements(times): "변위 × {times}";
     table_file: "표 (CSV)";
     all_file: "전체 (JSON)";
@@ -161,10 +165,10 @@ translate! { Korean monitoring {
     per_month: "월당(30.44일), 직선, 1σ";
     velocity_moves(id, v, s, unit): "점 {id}의 속도는 월 {v} ± {s} {unit}로 유의합니다.";
     velocity_still(id, v, s, unit): "점 {id}의 속도는 유의하지 않습니다: 월 {v} ± {s} {unit}.";
-    velocity_none: "속도를 구하려면 날짜가 있는 시기가 셋 이상, 같은 안정 기준점의 기준계에 있어야 합니다.";
+    velocity_none: "속도를 구하려면 날짜가 있는 시기가 셋 이상, 같은 안정 참조점의 기준계에 있어야 합니다.";
     three_needed: "시간에 따른 점을 보려면 시기가 셋 있어야 합니다.";
     series_datum(names): "모든 시기의 기준계: {names}.";
-    series_no_datum: "모든 시기에 안정한 기준점이 4점보다 적어, 각 변위는 그 쌍의 기준계로 나타냅니다.";
+    series_no_datum: "모든 시기에 안정한 참조점이 4점보다 적어, 각 변위는 그 쌍의 기준계로 나타냅니다.";
     state_warning: "주의";
     state_alarm: "경보";
     without_date: "날짜 없음";

@@ -14,6 +14,7 @@ translate! { Korean mounted {
     photo_of(row, column): "{row}번째 촬영의 카메라 {column} 사진";
     base(camera, first, base): "카메라 {camera}에서 {first}까지의 거리: {base}.";
     scatter(n, position, rotation): "{n}회 촬영이 공통 상대 자세에서 {position}, {rotation}만큼 흩어집니다.";
+    outlier(first, own, position, rotation): "사진 {first}, {own}의 상대 자세가 {position}, {rotation}만큼 벗어나며 우연으로 볼 수 없습니다. 고정 틀이 움직였거나 동시에 찍은 사진이 아닙니다. 그 행을 고치거나 지우십시오.";
     one_exposure: "촬영이 한 번뿐이므로 비교할 것이 없습니다.";
     two_cameras: "동시에 찍은 사진에는 사진이 있는 카메라가 둘 이상 필요합니다. 카메라마다 사진을 따로 지정하십시오.";
     no_photo(name): "{name}{name:이라는|라는} 사진이 없습니다. 사진 이름을 입력하거나, 사진이 없으면 비워 두십시오.";

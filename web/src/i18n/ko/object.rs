@@ -15,7 +15,7 @@ translate! { Korean object {
     side_right: "오른쪽";
     side_along: "축 방향";
     perspective: "원근";
-    show_names: "점번호";
+    show_names: "점 이름";
     show_rays: "광선";
     show_ellipsoids: "오차타원체";
     show_deviations: "편차";
@@ -50,7 +50,7 @@ translate! { Korean object {
     quantity_angle: "각";
     quantity_diameter: "지름";
     quantity_rms: "형상 RMS";
-    no_features: "아직 형상이 없습니다. 화면에서 점을 고르거나 점번호를 적은 다음 형상을 고르십시오.";
+    no_features: "아직 형상이 없습니다. 화면에서 점을 고르거나 점 이름을 적은 다음 형상을 고르십시오.";
     hardly_forms(kind, rms, percent): "이 점들은 {kind}{kind:을|를} 이루지 않습니다. RMS {rms}, 점군 크기의 {percent} %";
     weakly_determined(percent): "{percent} %까지만 결정되어 표준오차가 없습니다";
     missing_points(names): "여기서 결정되지 않은 점: {names}";
@@ -72,7 +72,7 @@ translate! { Korean object {
     layer: "레이어";
     removed_too(n): "이 형상을 쓰는 형상 {n}개도 삭제했습니다.";
     name_taken: "이름이 비었거나 이미 쓰고 있습니다. 다른 이름을 입력하십시오.";
-    lacks_points(n): "먼저 점을 {n}개 이상 고르십시오. Shift를 누르고 클릭하거나 점번호를 적으면 됩니다.";
+    lacks_points(n): "먼저 점을 {n}개 이상 고르십시오. Shift를 누르고 클릭하거나 점 이름을 적으면 됩니다.";
     lacks_ends: "거리에는 두 끝이 필요합니다. 점 둘, 형상 둘(Shift), 또는 하나씩 고르십시오.";
     lacks_angle: "각은 방향이 있는 두 형상 사이, 또는 고른 세 점 가운데 둘째 점에서 잽니다.";
     lacks_feature: "비교할 형상 하나를 고르거나 기준점 단계에서 좌표를 주십시오. 일부 점만 비교하려면 점도 고르십시오.";

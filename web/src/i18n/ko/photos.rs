@@ -52,8 +52,8 @@ translate! { Korean photos {
     centre_without_sigma: "투영중심을 관측값으로 쓰려면 한 축 이상에 표준오차가 필요합니다.";
     pixel_pitch: "화소 크기";
     pitch_um(um): "화소 크기 {um} µm";
-    pitch_unknown: "화소 크기 미상, 픽셀 단위";
-    pitch_hint: "화소 크기를 모르면 사진좌표는 픽셀 단위입니다. 대상점 좌표는 어느 쪽이든 같습니다.";
+    pitch_unknown: "화소 크기 미상, 화소 단위";
+    pitch_hint: "화소 크기를 모르면 사진좌표는 화소 단위입니다. 대상점 좌표는 어느 쪽이든 같습니다.";
     principal_distance: "주점거리 초기값";
     unknown: "미상";
 

@@ -26,6 +26,6 @@ translate! { Korean systematic {
     own_camera: "이 사진들에 별도의 카메라를 지정하십시오.";
     per_photo: "촬영할 때 줌과 초점을 고정하거나 사진마다 내부표정을 추정하십시오.";
     inspect: "렌즈 앞의 유리창, 고르지 않은 센서나 필름, 중심에서 벗어나 측정된 표적을 확인하십시오.";
-    photos_tested(n): "사진 {n}장을 하나씩 검사함";
+    photos_tested(n): "사진 {n}매를 하나씩 검사함";
     not_noise: "잡음이 아니라 계통오차이므로 결과의 표준오차에는 들어 있지 않습니다.";
 } }

@@ -1,7 +1,8 @@
 //! What the engine's reasons name, in Korean: things, arguments, degenerate configurations.
 
-use sightline::error::{Expected, Lack, PhotoModelerPart, Thing};
+use sightline::error::{Expected, Lack, Thing};
 use sightline::initial::Degeneracy;
+use sightline_exchange::reason::PhotoModelerPart;
 
 /// Why an initial value cannot be computed.
 pub fn degeneracy(degeneracy: &Degeneracy) -> String {
@@ -74,7 +75,7 @@ pub fn photomodeler_part(part: PhotoModelerPart) -> &'static str {
     }
 }
 
-/// What an argument should have been.
+/// Expected kind of an argument.
 pub fn expected(expected: Expected) -> &'static str {
     match expected {
         Expected::Object => "객체",

@@ -2,7 +2,7 @@
 
 use sightline::error::{Damage, PictureKind};
 
-/// What a picture that is not read is.
+/// Kind of a picture that is not supported.
 pub fn picture(kind: &PictureKind) -> String {
     use PictureKind as K;
     let plain = match kind {
@@ -26,7 +26,7 @@ pub fn picture(kind: &PictureKind) -> String {
     plain.to_owned()
 }
 
-/// What is wrong with a picture's file.
+/// Error of a picture's file.
 pub fn damage(damage: &Damage) -> String {
     match damage {
         Damage::EndsEarly => "파일이 중간에 끝납니다".to_owned(),

@@ -7,21 +7,21 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::adjustment::Termination;
 use sightline::error::{Error, Place, Reason as Refusal};
-use sightline::exchange::control_csv::Choices;
-use sightline::exchange::{encoding, epochs as lists, rows};
 use sightline::monitoring::Epoch;
 use sightline::project::Project;
+use sightline_exchange::control_csv::TableChoices;
+use sightline_exchange::{encoding, epochs as lists, rows};
 use sightline_protocol::{Content, Unpack, Unpacked};
 
-use super::{Entry, Looking};
+use super::{EpochEntry, Looking};
 use crate::browser::file::NamedFile;
 use crate::browser::storage::Fault;
+use crate::document::{AdjustmentResult, Document};
 use crate::edit::epoch;
-use crate::i18n::{lasting, text};
-use crate::store::document::{Document, Outcome as Adjusted};
-use crate::store::kept::{Book, replay};
-use crate::store::lasting::Stop;
-use crate::store::pool::{Failure, Outcome};
+use crate::i18n::{background, text};
+use crate::store::background::Stop;
+use crate::store::journal::{Book, replay};
+use crate::store::pool::{Failure, TaskOutcome};
 use crate::store::saving::{is_project, rename};
 use crate::store::{Desk, Problem, Reason};
 
@@ -37,9 +37,9 @@ impl Desk {
         }
     }
 
-    /// When the photos of the project on the desk were taken, as far as their files say.
+    /// When the photos of the project on the desk were taken, if their files contain it.
     fn date_of_photos(self) -> Option<String> {
-        self.files.with_untracked(|files| {
+        self.photos.files.with_untracked(|files| {
             let dates = files.values().filter_map(|file| file.info.date.as_deref());
             dates.min().and_then(epoch::date_in)
         })
@@ -107,7 +107,7 @@ impl Desk {
             .find(|n| !known(n))
             .unwrap_or(base);
         monitored.given.update_value(|n| *n += 1);
-        let entry = Entry { id: monitored.given.get_value(), epoch: Arc::new(epoch), key, source, matrix };
+        let entry = EpochEntry { id: monitored.given.get_value(), epoch: Arc::new(epoch), key, source, matrix };
         monitored.failure.set(None);
         if monitored.epochs.with_untracked(Vec::is_empty) {
             self.recall_options(&entry);
@@ -144,8 +144,8 @@ impl Desk {
 
     fn unpack_epoch(self, file: NamedFile) {
         let name = file.name.clone();
-        let on_outcome = move |outcome: Outcome<Unpack>| match outcome {
-            Outcome::Done(Unpacked { content: Content { mut project, adjustment, .. }, .. }, _) => {
+        let on_outcome = move |outcome: TaskOutcome<Unpack>| match outcome {
+            TaskOutcome::Done(Unpacked { content: Content { mut project, adjustment, .. }, .. }, _) => {
                 let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem);
                 if project.name.is_empty() {
                     stem.clone_into(&mut project.name);
@@ -155,18 +155,18 @@ impl Desk {
                     Epoch { name: project.name.clone(), date, project: Some(project), adjustment, ..Epoch::default() };
                 self.put_epoch(epoch, None, name.clone(), None);
             }
-            Outcome::Failed(Failure::Refused(error)) => self.refuse_epoch(name.clone(), error),
-            Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
+            TaskOutcome::Failed(Failure::Refused(error)) => self.refuse_epoch(name.clone(), error),
+            TaskOutcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                 let problem = Problem { file: name.clone(), reason: Reason::Unreadable(detail) };
                 self.monitoring.problems.update(|all| all.push(problem));
             }
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::file, || ()), Unpack {}, vec![file.content], on_outcome);
+        self.ask(Stop(background::file, || ()), Unpack {}, vec![file.content], on_outcome);
     }
 
     fn take_list(self, name: String, content: &str) {
-        match lists::points(content, Choices::default()) {
+        match lists::points(content, TableChoices::default()) {
             Ok(list) => {
                 let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
                 let date = epoch::date_in(&stem);
@@ -181,7 +181,7 @@ impl Desk {
     fn take_matrix(self, name: String, content: &str) {
         let size = rows(content).len();
         let stem = |name: &str| name.split(['.', ' ']).next().unwrap_or_default().to_lowercase();
-        let fits = |entry: &Entry| {
+        let fits = |entry: &EpochEntry| {
             entry.epoch.points.as_ref().is_some_and(|points| [3 * points.len(), 3 * points.len() + 1].contains(&size))
         };
         let place = self.monitoring.epochs.with_untracked(|all| {
@@ -201,7 +201,7 @@ impl Desk {
                 expected: 3 * self
                     .monitoring
                     .epochs
-                    .with_untracked(|all| all.iter().rfind(|e| e.is_list()).map_or(0, Entry::points)),
+                    .with_untracked(|all| all.iter().rfind(|e| e.is_list()).map_or(0, EpochEntry::points)),
             };
             return self.refuse_epoch(name, Error::Invalid { reason, at: Place::default() });
         };
@@ -229,7 +229,7 @@ fn of_document(document: &Document, date: Option<String>) -> Result<Epoch, Probl
         let reason = Refusal::EpochNotConverged { name: name.clone() };
         return refused(Reason::Engine(Error::Invalid { reason, at: Place::default() }));
     }
-    let Adjusted { oriented, adjustment, .. } = &**result;
+    let AdjustmentResult { oriented, adjustment, .. } = &**result;
     let project = Project { name: name.clone(), ..(**oriented).clone() };
     let own = Some(document.project.report.date.clone()).filter(|date| sightline::monitoring::days(date).is_some());
     let date = date.or(own);

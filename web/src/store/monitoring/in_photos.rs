@@ -6,9 +6,9 @@ use leptos::prelude::*;
 use sightline::matching::{PhotoVector, PhotoVectors};
 use sightline_protocol::DisplacePhotos;
 
-use crate::i18n::lasting;
-use crate::store::lasting::Stop;
-use crate::store::pool::Outcome;
+use crate::i18n::background;
+use crate::store::background::Stop;
+use crate::store::pool::TaskOutcome;
 use crate::store::{Desk, Step};
 
 /// Displacements in photos with what they were asked for.
@@ -20,7 +20,7 @@ pub struct InPhotos {
 }
 
 impl Desk {
-    /// What displacements in photos hang on; none where the project on the desk is no epoch of what is shown.
+    /// Inputs of displacements in photos; `None` if the open project is not an epoch of the comparison shown.
     fn displaced_of(self) -> Option<(usize, usize, usize, f64)> {
         let ran = self.monitoring.current()?;
         let (number, pair) = self.monitoring.pair()?;
@@ -38,12 +38,21 @@ impl Desk {
 
     /// The displacements that a photo shows.
     pub fn displacements_in(self, photo: &str) -> Vec<PhotoVector> {
-        let Some(of) = self.displaced_of() else { return Vec::new() };
-        let found = self.monitoring.in_photos.with(|known| {
-            let known = known.as_ref().filter(|known| known.of == of)?;
-            Some(known.vectors.iter().find(|v| v.photo == photo).map(|v| v.vectors.clone()).unwrap_or_default())
-        });
-        found.unwrap_or_default()
+        self.displaced_in(photo, |found| found.vectors.clone())
+    }
+
+    /// Points of a photo whose displacement is not drawn, since it ends outside the camera's view; none while displacements are not shown.
+    pub fn displacements_not_drawn_in(self, photo: &str) -> Vec<String> {
+        let shown = self.photo_view.layers.with(|layers| layers.displacements);
+        if shown { self.displaced_in(photo, |found| found.not_drawn.clone()) } else { Vec::new() }
+    }
+
+    fn displaced_in<T: Default>(self, photo: &str, read: impl FnOnce(&PhotoVectors) -> T) -> T {
+        let Some(of) = self.displaced_of() else { return T::default() };
+        self.monitoring.in_photos.with(|known| {
+            let found = known.as_ref().filter(|known| known.of == of);
+            found.and_then(|known| known.vectors.iter().find(|v| v.photo == photo)).map(read).unwrap_or_default()
+        })
     }
 
     /// Asks for the displacements in photos whenever what they hang on changes.
@@ -68,19 +77,19 @@ impl Desk {
             pair,
             factor: of.3,
         };
-        let on_outcome = move |outcome: Outcome<DisplacePhotos>| match outcome {
-            Outcome::Done(vectors, _) => {
+        let on_outcome = move |outcome: TaskOutcome<DisplacePhotos>| match outcome {
+            TaskOutcome::Done(vectors, _) => {
                 self.monitoring.in_photos.set(Some(InPhotos { of, vectors: Arc::new(vectors) }));
             }
-            Outcome::Failed(failure) => self.tell_failure(failure),
-            Outcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Progress(nothing) => match nothing {},
         };
-        self.ask(Stop(lasting::displaced, || ()), task, Vec::new(), on_outcome);
+        self.ask(Stop(background::displaced, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Shows the chosen point with its displacement in a photo of the project on the desk.
     pub fn show_in_photo(self) {
-        self.layers.update(|layers| layers.displacements = true);
+        self.photo_view.layers.update(|layers| layers.displacements = true);
         if let Some(point) = self.monitoring.point.get_untracked() {
             self.select_point(&point);
             let photo = self.document.with_untracked(|d| {

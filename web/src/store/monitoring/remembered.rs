@@ -6,7 +6,7 @@ use leptos::task::spawn_local;
 use sightline::monitoring::Options;
 use sightline_protocol::{from_text, to_text};
 
-use super::Entry;
+use super::EpochEntry;
 use crate::browser::page;
 use crate::store::Desk;
 
@@ -14,7 +14,7 @@ use crate::store::Desk;
 const EPOCHS: &str = "epochs";
 
 /// The preference with the options of a series: by the project of its first epoch, or the file.
-fn name_of(first: &Entry) -> String {
+fn name_of(first: &EpochEntry) -> String {
     let of = first.key.as_deref().unwrap_or(&first.source);
     format!("epochs.{of}")
 }
@@ -44,7 +44,7 @@ impl Desk {
     }
 
     /// The options that were chosen for the series that this epoch begins.
-    pub(super) fn recall_options(self, first: &Entry) {
+    pub(super) fn recall_options(self, first: &EpochEntry) {
         let remembered = page::preference(&name_of(first));
         if let Some(options) = remembered.and_then(|text| from_text::<Options>(&text).ok()) {
             self.monitoring.options.set(options);

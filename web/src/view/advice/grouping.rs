@@ -1,4 +1,4 @@
-//! One advice per cause: photos and points of which the same is said, and parameters of one camera.
+//! One advice per cause: photos and points with the same note, and parameters of one camera, are grouped.
 
 use std::mem::{Discriminant, discriminant};
 
@@ -6,28 +6,28 @@ use sightline::adjustment::{Advice, CorrelatedPair, CorrelationGroup, Criteria, 
 use sightline::orient::{Note, PhotoReason, PointReason};
 use sightline::project::Parameter;
 
-use super::{Item, Target, correlated_name, listed, note_item, parameter_name};
+use super::{Item, Target, correlated_name, note_item, parameter_name};
 use crate::format;
-use crate::i18n::{first, text};
+use crate::i18n::{first, name_list, text};
 
-/// What notes have in common that are told as one.
+/// Common reason of notes that are shown as one item.
 #[derive(PartialEq)]
-enum Cause {
+enum NoteReason {
     Photo(Discriminant<PhotoReason>),
     Point(Discriminant<PointReason>),
 }
 
-fn cause(note: &Note) -> Option<(Cause, &str)> {
+fn cause(note: &Note) -> Option<(NoteReason, &str)> {
     match note {
-        Note::PhotoNotOriented { photo, reason } => Some((Cause::Photo(discriminant(reason)), photo)),
-        Note::PointNotDetermined { point, reason } => Some((Cause::Point(discriminant(reason)), point)),
+        Note::PhotoNotOriented { photo, reason } => Some((NoteReason::Photo(discriminant(reason)), photo)),
+        Note::PointNotDetermined { point, reason } => Some((NoteReason::Point(discriminant(reason)), point)),
         _ => None,
     }
 }
 
 /// Items of notes, in their order; those with one cause are one, at the place of the first.
 pub fn note_items<'a>(notes: impl Iterator<Item = &'a Note>, unit: &str) -> Vec<Item> {
-    let mut items: Vec<(Option<Cause>, Vec<&str>, Item)> = Vec::new();
+    let mut items: Vec<(Option<NoteReason>, Vec<&str>, Item)> = Vec::new();
     for note in notes {
         let Some((cause, name)) = cause(note) else {
             items.extend(note_item(note, unit).map(|item| (None, Vec::new(), item)));
@@ -38,12 +38,12 @@ pub fn note_items<'a>(notes: impl Iterator<Item = &'a Note>, unit: &str) -> Vec<
             None => items.extend(note_item(note, unit).map(|item| (Some(cause), vec![name], item))),
         }
     }
-    let told = |(cause, names, item): (Option<Cause>, Vec<&str>, Item)| match cause {
+    let told = |(cause, names, item): (Option<NoteReason>, Vec<&str>, Item)| match cause {
         Some(cause) if names.len() > 1 => {
-            let all = listed(names.iter().copied());
+            let all = name_list(names.iter().copied());
             let (title, evidence) = match cause {
-                Cause::Photo(_) => (first::photos_not_oriented(names.len(), all), text::n_photos(names.len())),
-                Cause::Point(_) => (first::points_not_determined(names.len(), all), text::n_points(names.len())),
+                NoteReason::Photo(_) => (first::photos_not_oriented(names.len(), all), text::n_photos(names.len())),
+                NoteReason::Point(_) => (first::points_not_determined(names.len(), all), text::n_points(names.len())),
             };
             Item { title, evidence, ..item }
         }
@@ -52,7 +52,7 @@ pub fn note_items<'a>(notes: impl Iterator<Item = &'a Note>, unit: &str) -> Vec<
     items.into_iter().map(told).collect()
 }
 
-/// Parameters of distortion that are not told from 0, an item a camera: the finest is held first, since the others may be told from 0
+/// Parameters of distortion that are not significantly different from 0, an item a camera: the finest is held first, since the others may be significant
 /// without it.
 pub fn insignificant(advice: &[Advice]) -> Vec<Item> {
     let mut cameras: Vec<(&str, Vec<(Parameter, f64)>)> = Vec::new();
@@ -69,7 +69,7 @@ pub fn insignificant(advice: &[Advice]) -> Vec<Item> {
         if all.len() < 2 {
             return None;
         }
-        let names = listed(all.iter().map(|(parameter, _)| parameter_name(*parameter)));
+        let names = name_list(all.iter().map(|(parameter, _)| parameter_name(*parameter)));
         let ratios = all.iter().map(|(_, ratio)| format!("{} σ", format::fixed(*ratio, 1))).collect::<Vec<_>>();
         Some(Item {
             warning: true,
@@ -82,7 +82,7 @@ pub fn insignificant(advice: &[Advice]) -> Vec<Item> {
     cameras.into_iter().filter_map(item).collect()
 }
 
-/// Whether a camera has several of them, so that [`insignificant`] tells them as one.
+/// Whether a camera has several of them, so that [`insignificant`] shows them as one.
 pub fn is_one_of_several(advice: &Advice, all: &[Advice]) -> bool {
     let Advice::Insignificant { camera, parameter, .. } = advice else { return false };
     let another = |other: &Advice| matches!(other, Advice::Insignificant { camera: of, parameter: which, .. } if of == camera && which != parameter);
@@ -107,7 +107,7 @@ pub fn correlations(advice: &[Advice], criteria: &Criteria) -> Vec<Item> {
         Some(Item {
             warning: true,
             title: first::correlations(all.len(), &camera),
-            body: first::correlations_body(listed(pairs.iter().map(String::as_str))),
+            body: first::correlations_body(name_list(pairs)),
             evidence: format!("{} – {} {}", correlated_name(&a), correlated_name(&b), format::fixed(r, 2)),
             target,
         })

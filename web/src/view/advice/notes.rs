@@ -1,13 +1,13 @@
-//! What the orientation had to say, as advice.
+//! Notes of the orientation, as advice.
 
 use sightline::orient::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
 
-use super::{Item, Target, Words, control_misfit, double_points, exchanged_points, listed, questions};
+use super::{Item, ItemText, Target, control_misfit, double_points, exchanged_points, questions};
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{name_list, text};
 use crate::store::Step;
 
-/// Whether the adjustment's advice says the same: its figures are the better ones.
+/// Whether the adjustment has the same advice, with more accurate figures.
 pub(super) fn is_said(note: &Note, advice: &[sightline::adjustment::Advice]) -> bool {
     use sightline::adjustment::Advice as A;
     advice.iter().any(|advice| match (note, advice) {
@@ -23,7 +23,7 @@ pub(super) fn is_said(note: &Note, advice: &[sightline::adjustment::Advice]) -> 
     })
 }
 
-/// What the orientation had to say.
+/// Notes of the orientation.
 pub(super) fn note_item(note: &Note, unit: &str) -> Option<Item> {
     let item = |title: String, body: String, target: Target| Item {
         warning: true,
@@ -32,7 +32,7 @@ pub(super) fn note_item(note: &Note, unit: &str) -> Option<Item> {
         evidence: String::new(),
         target,
     };
-    let worded = |(title, body, evidence, target): Words| Item { warning: true, title, body, evidence, target };
+    let worded = |(title, body, evidence, target): ItemText| Item { warning: true, title, body, evidence, target };
     Some(match note {
         Note::PrincipalDistance { camera, value, source } => Item {
             warning: false,
@@ -59,7 +59,7 @@ pub(super) fn note_item(note: &Note, unit: &str) -> Option<Item> {
             Target::Step(Step::Photos),
         ),
         Note::Groups { groups } => {
-            let lists = groups.iter().map(|group| listed(group.iter().map(String::as_str))).collect::<Vec<_>>();
+            let lists = groups.iter().map(name_list).collect::<Vec<_>>();
             item(
                 text::photo_groups(groups.len()),
                 text::photo_groups_body(lists.join(" | ")),
@@ -91,10 +91,7 @@ pub(super) fn note_item(note: &Note, unit: &str) -> Option<Item> {
                 PointReason::BehindCamera { photo } => text::point_behind(photo),
                 PointReason::RaysDisagree => text::point_disagrees().to_owned(),
                 PointReason::CoordinatesMissing => text::point_no_coordinates().to_owned(),
-                PointReason::Undecided { first, second } => {
-                    let listed = |photos: &[String]| listed(photos.iter().map(String::as_str));
-                    text::point_undecided(listed(first), listed(second))
-                }
+                PointReason::Undecided { first, second } => text::point_undecided(name_list(first), name_list(second)),
             };
             let target = match reason {
                 PointReason::SeenOnce { photo } => Target::Observation { photo: photo.clone(), point: point.clone() },
@@ -120,7 +117,7 @@ pub(super) fn note_item(note: &Note, unit: &str) -> Option<Item> {
         Note::UnitRatio(found) => questions::unit(found),
         Note::OneStation(found) => questions::station(found),
         Note::ImplausibleCamera(found) => questions::camera(found),
-        // The document says it.
+        // The document has the value.
         Note::NoScale => return None,
     })
 }

@@ -4,9 +4,9 @@ use sightline::adjustment::{
     CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
 };
 
-use super::{Item, Step, Target, listed};
+use super::{Item, Step, Target};
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{name_list, text};
 use crate::store::axes_here;
 
 fn item(title: String, body: String, evidence: String, target: Target) -> Item {
@@ -49,7 +49,7 @@ pub fn undecided(found: &UndecidedAxes) -> Item {
 
 pub fn unit(found: &UnitRatio) -> Item {
     let bars: Vec<String> = found.distances.iter().map(|(a, b)| format!("{a} – {b}")).collect();
-    let bars = listed(bars.iter().map(String::as_str));
+    let bars = name_list(bars);
     let (title, step) = match (found.of, &found.camera) {
         (UnitOf::Distance, _) if !bars.is_empty() => (text::unit_of_distance(bars), Step::Control),
         (UnitOf::Camera, Some(camera)) => (text::unit_of_camera(camera), Step::Photos),
@@ -61,7 +61,7 @@ pub fn unit(found: &UnitRatio) -> Item {
 }
 
 pub fn station(found: &OneStation) -> Item {
-    let photos = listed(found.photos.iter().map(String::as_str));
+    let photos = name_list(&found.photos);
     let target = found.photos.first().map_or(Target::None, |photo| Target::Photo(photo.clone()));
     let count = text::n_photos(found.photos.len());
     match found.all {
@@ -81,7 +81,7 @@ pub fn camera(found: &ImplausibleCamera) -> Item {
             photos(),
         ),
         CameraDoubt::ImageSize { photos: names, size: [width, height], measured: [u, v] } => item(
-            text::image_size(camera, listed(names.iter().map(String::as_str))),
+            text::image_size(camera, name_list(names)),
             text::image_size_body(format!("{width} × {height}")),
             format!("{} × {} px", format::fixed(*u, 0), format::fixed(*v, 0)),
             photos(),

@@ -3,20 +3,20 @@
 use sightline::adjustment::{Adjustment, Advice, PatternKind, Remedy};
 use sightline::project::Parameter;
 
-use super::{Item, Step, Target, listed, parameter_name};
+use super::{Item, Step, Target, parameter_name};
 use crate::format;
-use crate::i18n::systematic as words;
+use crate::i18n::{name_list, systematic as words};
 
 /// The item about a named pattern; nothing of other advice.
 pub fn item(advice: &Advice) -> Option<Item> {
     let Advice::ResidualPattern { camera, pattern, photos, p_value, max_px, sigma0, remedy, .. } = advice else {
         return None;
     };
-    Some(told(camera, (*pattern, photos), [*max_px, *p_value, *sigma0], remedy))
+    Some(sentences(camera, (*pattern, photos), [*max_px, *p_value, *sigma0], remedy))
 }
 
 /// The item about a pattern of a camera: its largest length in pixels, its probability by chance, sigma0 without it.
-pub fn told(
+pub fn sentences(
     camera: &str,
     (pattern, photos): (PatternKind, &[String]),
     [max_px, p_value, sigma0]: [f64; 3],
@@ -31,7 +31,7 @@ pub fn told(
         PatternKind::Column => (words::column(camera, px), words::read_out_body()),
         PatternKind::Position => (words::position(camera, px), words::position_body()),
         PatternKind::Photo if photos.is_empty() => (words::every_photo(camera, px), words::every_photo_body()),
-        PatternKind::Photo => (words::photo(listed(photos.iter().map(String::as_str)), px), words::photo_body()),
+        PatternKind::Photo => (words::photo(name_list(photos), px), words::photo_body()),
     };
     let (remedy, target) = match remedy {
         Remedy::Estimate { parameters } => (
@@ -70,5 +70,5 @@ pub fn with_tested(mut item: Item, advice: &Advice, adjustment: &Adjustment) -> 
 
 /// Names of parameters, one after the other.
 pub fn names(parameters: &[Parameter]) -> String {
-    listed(parameters.iter().map(|p| parameter_name(*p)))
+    name_list(parameters.iter().map(|p| parameter_name(*p)))
 }

@@ -4,6 +4,7 @@ use sightline::adjustment::{
     Advice as A, CameraDoubt, Criteria, Exchange, ImplausibleCamera, MirroredControl, OneStation, PatternKind, Remedy,
     UndecidedAxes, UnitOf, UnitRatio,
 };
+use sightline::orient::Note;
 
 use super::*;
 

@@ -9,16 +9,17 @@ use super::{Item, Target, follow, of_the_input, step_of, systematic};
 use crate::format;
 use crate::i18n::{first, text};
 use crate::store::{Desk, Step};
-use crate::view::icon::{Glyph, Icon};
-use crate::view::results::{given_kind, given_name};
+use crate::view::components::given::given_kind;
+use crate::view::components::given::given_name;
+use crate::view::components::icon::{Glyph, Icon};
 
 /// Share of the image observations up to which suspected ones are taken for gross errors. Of sound observations one in five hundred
 /// exceeds the limit; where all standard errors are 1.4 times too small, more than this share does.
 const FEW: f64 = 0.03;
 
-/// What most likely makes the global test fail.
+/// Most likely cause of a failed global test.
 #[derive(Clone, Debug, PartialEq)]
-enum Cause {
+enum FailureCause {
     /// Something given, by name: control, a distance, a unit, a camera.
     Given(String, Target),
     /// Systematic residuals: what they depend on, and the remedy.
@@ -27,13 +28,13 @@ enum Cause {
     GrossErrors { count: usize, point: String, photo: String },
     /// A camera whose distortion is neither known nor estimated.
     Model { camera: String },
-    /// Image coordinates are not as good as their standard errors say: how many pixels would have to be added.
+    /// Image coordinates are less accurate than their standard errors: extra image error in pixels that would explain it.
     ImageSigma { unmodelled: Option<f64> },
     /// They are better than that.
     SigmaTooLarge,
 }
 
-/// What a result is worth.
+/// Verdict on a result.
 #[derive(Clone, Debug, PartialEq)]
 enum Verdict {
     Passed {
@@ -41,9 +42,9 @@ enum Verdict {
     },
     Failed {
         sigma0: f64,
-        cause: Cause,
+        cause: FailureCause,
     },
-    /// No test fails, but the photos contradict something given, which took no part or bent the result within what the test lets pass.
+    /// No test fails, but the photos contradict something given, which was not used or bent the result within what the test lets pass.
     Contradicted(String, Target),
     /// Standard errors were estimated from the residuals: nothing independent tests them.
     Estimated,
@@ -68,11 +69,11 @@ fn verdict(a: &Adjustment, project: &Project) -> Option<Verdict> {
     if test.passed {
         return Some(Verdict::Passed { sigma0 });
     }
-    let cause = if test.statistic < test.lower { Cause::SigmaTooLarge } else { cause(a, project) };
+    let cause = if test.statistic < test.lower { FailureCause::SigmaTooLarge } else { cause(a, project) };
     Some(Verdict::Failed { sigma0, cause })
 }
 
-/// What is given and contradicts the photos, and where it is looked at.
+/// A given value that contradicts the photos, and the place where it is shown.
 fn contradiction(a: &Adjustment) -> Option<(String, Target)> {
     let of_control = |advice: &Advice| match advice {
         Advice::ControlMisfit { point, .. } => Some(first::cause_given(first::control_point(), point)),
@@ -87,14 +88,14 @@ fn contradiction(a: &Adjustment) -> Option<(String, Target)> {
     Some((title, Target::Step(Step::Adjust)))
 }
 
-/// What is given is looked at first, since one wrong number of it spoils everything; then the pattern of the residuals, single observations, the camera model, and
+/// Given values are examined first, since one wrong value affects everything; then the pattern of the residuals, single observations, the camera model, and
 /// last the standard errors, which seem too small in all the other cases too.
-fn cause(a: &Adjustment, project: &Project) -> Cause {
+fn cause(a: &Adjustment, project: &Project) -> FailureCause {
     if let Some((words, target)) = contradiction(a) {
-        return Cause::Given(words, target);
+        return FailureCause::Given(words, target);
     }
     if let Some(Item { title, target, .. }) = a.advice.iter().find_map(systematic::item) {
-        return Cause::Systematic(title, target);
+        return FailureCause::Systematic(title, target);
     }
     let used = a.observations.iter().filter(|o| o.enabled).count();
     let suspected = a.advice.iter().find_map(|advice| match advice {
@@ -107,10 +108,10 @@ fn cause(a: &Adjustment, project: &Project) -> Cause {
         let few = count as f64 <= (FEW * used as f64).max(1.0);
         match (image, other) {
             (_, Some((what, w))) if w.abs() >= largest(image.map(|o| o.2)) => {
-                return Cause::Given(first::cause_given(given_kind(what), given_name(what)), step_of(what));
+                return FailureCause::Given(first::cause_given(given_kind(what), given_name(what)), step_of(what));
             }
             (Some((photo, point, _)), _) if few => {
-                return Cause::GrossErrors { count, point: point.clone(), photo: photo.clone() };
+                return FailureCause::GrossErrors { count, point: point.clone(), photo: photo.clone() };
             }
             _ => {}
         }
@@ -121,14 +122,14 @@ fn cause(a: &Adjustment, project: &Project) -> Cause {
         of_photos(&camera.id) && !estimated && camera.interior.get(Parameter::K1).is_none_or(|k1| k1 == 0.0)
     });
     if let Some(camera) = without_model {
-        return Cause::Model { camera: camera.id.clone() };
+        return FailureCause::Model { camera: camera.id.clone() };
     }
     let unmodelled = a.advice.iter().find_map(|advice| match advice {
         Advice::SigmasTooSmall { unmodelled, .. } => *unmodelled,
         Advice::UnmodelledAgain { unmodelled, .. } => Some(*unmodelled),
         _ => None,
     });
-    Cause::ImageSigma { unmodelled }
+    FailureCause::ImageSigma { unmodelled }
 }
 
 impl Verdict {
@@ -138,13 +139,17 @@ impl Verdict {
             Self::Contradicted(words, _) => first::verdict_contradicted(words),
             Self::Estimated => first::verdict_estimated().to_owned(),
             Self::NoRedundancy => first::verdict_no_redundancy().to_owned(),
-            Self::Failed { sigma0, cause: Cause::SigmaTooLarge } => first::verdict_too_large(format::fixed(*sigma0, 2)),
+            Self::Failed { sigma0, cause: FailureCause::SigmaTooLarge } => {
+                first::verdict_too_large(format::fixed(*sigma0, 2))
+            }
             Self::Failed { sigma0, cause } => {
                 let words = match cause {
-                    Cause::Given(words, _) | Cause::Systematic(words, _) => words.clone(),
-                    Cause::GrossErrors { count, point, photo } => first::cause_gross_errors(count, point, photo),
-                    Cause::Model { camera } => first::cause_model(camera),
-                    Cause::ImageSigma { .. } | Cause::SigmaTooLarge => first::cause_image_sigma().to_owned(),
+                    FailureCause::Given(words, _) | FailureCause::Systematic(words, _) => words.clone(),
+                    FailureCause::GrossErrors { count, point, photo } => first::cause_gross_errors(count, point, photo),
+                    FailureCause::Model { camera } => first::cause_model(camera),
+                    FailureCause::ImageSigma { .. } | FailureCause::SigmaTooLarge => {
+                        first::cause_image_sigma().to_owned()
+                    }
                 };
                 first::verdict_failed(format::fixed(*sigma0, 2), words)
             }
@@ -159,17 +164,17 @@ impl Verdict {
             _ => return None,
         };
         Some(match cause {
-            Cause::Systematic(_, target) => (target.buttons().into_iter().next()?.0, target.clone()),
-            Cause::Given(_, target) => (text::show().to_owned(), target.clone()),
-            Cause::GrossErrors { point, photo, .. } => {
+            FailureCause::Systematic(_, target) => (target.buttons().into_iter().next()?.0, target.clone()),
+            FailureCause::Given(_, target) => (text::show().to_owned(), target.clone()),
+            FailureCause::GrossErrors { point, photo, .. } => {
                 (first::look_at_it().to_owned(), Target::Observation { photo: photo.clone(), point: point.clone() })
             }
-            Cause::Model { .. } => (first::estimate_distortion().to_owned(), Target::Step(Step::Adjust)),
-            Cause::ImageSigma { unmodelled: Some(px) } => {
+            FailureCause::Model { .. } => (first::estimate_distortion().to_owned(), Target::Step(Step::Adjust)),
+            FailureCause::ImageSigma { unmodelled: Some(px) } => {
                 let target = super::unmodelled(*px);
                 (target.buttons().into_iter().next()?.0, target)
             }
-            Cause::ImageSigma { unmodelled: None } | Cause::SigmaTooLarge => {
+            FailureCause::ImageSigma { unmodelled: None } | FailureCause::SigmaTooLarge => {
                 (first::change_weights().to_owned(), Target::Step(Step::Adjust))
             }
         })
@@ -235,9 +240,9 @@ mod tests {
         };
         let small = || Advice::SigmasTooSmall { sigma0: 1.88, unmodelled: Some(0.05) };
         let misfit = || Advice::ControlMisfit { point: "9".into(), difference: [9.0, 0.0, 0.0], sigma_ratio: 30.0 };
-        assert!(matches!(cause(&failed(vec![small(), suspected(2), misfit()]), &calibrated), Cause::Given(..)));
+        assert!(matches!(cause(&failed(vec![small(), suspected(2), misfit()]), &calibrated), FailureCause::Given(..)));
         let single = cause(&failed(vec![small(), suspected(2)]), &calibrated);
-        assert_eq!(single, Cause::GrossErrors { count: 2, point: "7".into(), photo: "a".into() });
+        assert_eq!(single, FailureCause::GrossErrors { count: 2, point: "7".into(), photo: "a".into() });
         // A test that passes does not make up for what is given wrong.
         let passed = sightline::adjustment::GlobalTest { passed: true, ..Default::default() };
         let sound =
@@ -247,11 +252,11 @@ mod tests {
         assert_eq!(verdict(&sound, &calibrated), Some(Verdict::Passed { sigma0: 0.99 }));
         // Where many are suspected it is none of them.
         let many = cause(&failed(vec![small(), suspected(60)]), &calibrated);
-        assert_eq!(many, Cause::ImageSigma { unmodelled: Some(0.05) });
-        assert_eq!(cause(&failed(vec![small()]), &project(&[])), Cause::Model { camera: "k".into() });
+        assert_eq!(many, FailureCause::ImageSigma { unmodelled: Some(0.05) });
+        assert_eq!(cause(&failed(vec![small()]), &project(&[])), FailureCause::Model { camera: "k".into() });
         // A test that fails by little has no advice of its own: a cause is named all the same.
-        assert_eq!(cause(&failed(Vec::new()), &calibrated), Cause::ImageSigma { unmodelled: None });
-        for cause in [single, many, Cause::Model { camera: "k".into() }, Cause::SigmaTooLarge] {
+        assert_eq!(cause(&failed(Vec::new()), &calibrated), FailureCause::ImageSigma { unmodelled: None });
+        for cause in [single, many, FailureCause::Model { camera: "k".into() }, FailureCause::SigmaTooLarge] {
             assert!(Verdict::Failed { sigma0: 1.88, cause }.action().is_some());
         }
     }

@@ -1,7 +1,7 @@
 //! A chart of an experiment: lines over numbers or named places, the paper's dashed beside ours.
 
 use leptos::prelude::*;
-use sightline::experiments::{Chart, Series};
+use sightline_lab::experiments::{Axis, Chart, Series, Tick};
 
 use super::names;
 use crate::format;
@@ -60,7 +60,7 @@ impl Scale {
         (0..=count.min(20)).map(|k| (first + k as f64) * step).collect()
     }
 
-    /// Decimals that tell the ticks apart.
+    /// Decimals needed to distinguish the ticks.
     fn decimals(self) -> usize {
         (-step(self.to - self.from).log10()).ceil().clamp(0.0, 8.0) as usize
     }
@@ -91,6 +91,113 @@ fn look(ids: &[String], series: &Series) -> String {
     format!("line c{}{second}{}", place % 3, if series.paper { " of-paper" } else { "" })
 }
 
+/// The two scales of a chart, and its coordinates on the page.
+#[derive(Clone, Copy)]
+struct Plane {
+    x: Scale,
+    y: Scale,
+}
+
+impl Plane {
+    fn of(chart: &Chart) -> Self {
+        let points = || chart.series.iter().flat_map(|s| s.points.iter().copied());
+        let y = Scale::of(points().map(|p| p[1]), chart.y.unit != "%");
+        let x = if chart.x.ticks.is_empty() {
+            Scale::of(points().map(|p| p[0]), false)
+        } else {
+            let at = || chart.x.ticks.iter().map(|t| t.at);
+            let (low, high) = (at().fold(f64::INFINITY, f64::min), at().fold(f64::NEG_INFINITY, f64::max));
+            Scale { from: low - 0.5, to: high + 0.5, logarithmic: false }
+        };
+        Self { x, y }
+    }
+
+    fn right(self, v: f64) -> f64 {
+        LEFT + self.x.share(v) * (WIDTH - LEFT - RIGHT)
+    }
+
+    fn down(self, v: f64) -> f64 {
+        HEIGHT - BOTTOM - self.y.share(v) * (HEIGHT - BOTTOM - TOP)
+    }
+}
+
+/// Horizontal lines with the values of y.
+fn grid(plane: Plane) -> impl IntoView {
+    let line = |v: f64| {
+        let y = plane.down(v);
+        view! {
+            <line class=if v == 0.0 { "zero" } else { "grid" } x1=LEFT x2=WIDTH - RIGHT y1=y y2=y></line>
+            <text class="axis" x=LEFT - 6.0 y=y + 4.0 text-anchor="end">{plane.y.tick(v)}</text>
+        }
+    };
+    plane.y.ticks().into_iter().map(line).collect_view()
+}
+
+/// Names of the cases along x, or vertical lines with the values of x.
+fn ticks(chart: &Chart, plane: Plane) -> AnyView {
+    if !chart.x.ticks.is_empty() {
+        let tick = |t: &Tick| {
+            let y = HEIGHT - BOTTOM + if t.group { 31.0 } else { 16.0 };
+            let class = if t.group { "axis strong" } else { "axis" };
+            view! { <text class=class x=plane.right(t.at) y=y text-anchor="middle">{names::name(&t.text)}</text> }
+        };
+        return chart.x.ticks.iter().map(tick).collect_view().into_any();
+    }
+    let tick = |v: f64| {
+        let x = plane.right(v);
+        view! {
+            <line class="grid" x1=x x2=x y1=TOP y2=HEIGHT - BOTTOM></line>
+            <text class="axis" x=x y=HEIGHT - BOTTOM + 16.0 text-anchor="middle">{plane.x.tick(v)}</text>
+        }
+    };
+    plane.x.ticks().into_iter().map(tick).collect_view().into_any()
+}
+
+fn line(series: &Series, ids: &[String], plane: Plane) -> impl IntoView + use<> {
+    let places = || series.points.iter().map(|p| [plane.right(p[0]), plane.down(p[1])]);
+    let path = places().enumerate().map(|(i, [x, y])| format!("{}{x:.1} {y:.1}", if i == 0 { "M" } else { "L" }));
+    let place = ids.iter().position(|id| *id == series.id).unwrap_or(0) % 3;
+    let marks = (series.points.len() <= MARKED).then(|| places().map(|[x, y]| mark(place, x, y)).collect_view());
+    let (class, path) = (look(ids, series), path.collect::<String>());
+    view! { <g class=class><path class="way" d=path></path>{marks}</g> }
+}
+
+/// An entry for each line; those of the paper have entries of their own.
+fn legend(chart: &Chart, ids: &[String]) -> impl IntoView + use<> {
+    let mut entries: Vec<&Series> = Vec::new();
+    for s in &chart.series {
+        if !entries.iter().any(|known| known.id == s.id && known.paper == s.paper) {
+            entries.push(s);
+        }
+    }
+    let entry = |series: &Series| {
+        let place = ids.iter().position(|known| *known == series.id).unwrap_or(0) % 3;
+        let (id, paper, look) = (series.id.clone(), series.paper, look(ids, series));
+        let words = move || {
+            let label = names::label(&id);
+            if paper && id != "planted" { words::paper_of(label) } else { label }
+        };
+        view! {
+            <li>
+                <svg class="swatch-line" width="30" height="12" viewBox="0 0 30 12" aria-hidden="true">
+                    <g class=look><path class="way" d="M1 6H29"></path>{mark(place, 15.0, 6.0)}</g>
+                </svg>
+                <span>{words}</span>
+            </li>
+        }
+    };
+    entries.into_iter().map(entry).collect_view()
+}
+
+/// Name of an axis with its unit.
+fn axis_label(axis: &Axis) -> impl Fn() -> String + Clone + Send + Sync + use<> {
+    let (id, unit) = (axis.id.clone(), axis.unit.clone());
+    move || {
+        let label = names::label(&id);
+        if unit.is_empty() || label == unit { label } else { format!("{label} {unit}") }
+    }
+}
+
 /// The chart with its title and legend.
 #[component]
 pub fn LineChart(chart: Chart) -> impl IntoView {
@@ -100,100 +207,17 @@ pub fn LineChart(chart: Chart) -> impl IntoView {
             ids.push(s.id.clone());
         }
     });
-    let points = || chart.series.iter().flat_map(|s| s.points.iter().copied());
-    let y = Scale::of(points().map(|p| p[1]), chart.y.unit != "%");
-    let named = !chart.x.ticks.is_empty();
-    let x = if named {
-        let at = || chart.x.ticks.iter().map(|t| t.at);
-        let (low, high) = (at().fold(f64::INFINITY, f64::min), at().fold(f64::NEG_INFINITY, f64::max));
-        Scale { from: low - 0.5, to: high + 0.5, logarithmic: false }
-    } else {
-        Scale::of(points().map(|p| p[0]), false)
-    };
-    let right = move |v: f64| LEFT + x.share(v) * (WIDTH - LEFT - RIGHT);
-    let down = move |v: f64| HEIGHT - BOTTOM - y.share(v) * (HEIGHT - BOTTOM - TOP);
-
-    let grid = y.ticks().into_iter().map(|v| {
-        view! {
-            <line class=if v == 0.0 { "zero" } else { "grid" } x1=LEFT x2=WIDTH - RIGHT y1=down(v) y2=down(v)></line>
-            <text class="axis" x=LEFT - 6.0 y=down(v) + 4.0 text-anchor="end">{y.tick(v)}</text>
-        }
-    });
-    let grid = grid.collect_view();
-    let across = if named {
-        let tick = |t: &sightline::experiments::Tick| {
-            let y = HEIGHT - BOTTOM + if t.group { 31.0 } else { 16.0 };
-            let class = if t.group { "axis strong" } else { "axis" };
-            view! { <text class=class x=right(t.at) y=y text-anchor="middle">{names::name(&t.text)}</text> }
-        };
-        chart.x.ticks.iter().map(tick).collect_view().into_any()
-    } else {
-        let tick = |v: f64| {
-            view! {
-                <line class="grid" x1=right(v) x2=right(v) y1=TOP y2=HEIGHT - BOTTOM></line>
-                <text class="axis" x=right(v) y=HEIGHT - BOTTOM + 16.0 text-anchor="middle">{x.tick(v)}</text>
-            }
-        };
-        x.ticks().into_iter().map(tick).collect_view().into_any()
-    };
-    let lines = chart
-        .series
-        .iter()
-        .map(|s| {
-            let path = s
-                .points
-                .iter()
-                .enumerate()
-                .map(|(i, p)| format!("{}{:.1} {:.1}", if i == 0 { "M" } else { "L" }, right(p[0]), down(p[1])));
-            let place = ids.iter().position(|id| *id == s.id).unwrap_or(0) % 3;
-            let marks = (s.points.len() <= MARKED)
-                .then(|| s.points.iter().map(|p| mark(place, right(p[0]), down(p[1]))).collect_view());
-            let (class, path) = (look(&ids, s), path.collect::<String>());
-            view! { <g class=class><path class="way" d=path></path>{marks}</g> }
-        })
-        .collect_view();
-
-    let mut legend: Vec<(String, bool, String)> = Vec::new();
-    for s in &chart.series {
-        if !legend.iter().any(|(id, paper, _)| *id == s.id && *paper == s.paper) {
-            legend.push((s.id.clone(), s.paper, look(&ids, s)));
-        }
-    }
-    let entries = legend
-        .into_iter()
-        .map(|(id, paper, look)| {
-            let place = ids.iter().position(|known| *known == id).unwrap_or(0) % 3;
-            let words = move || {
-                let label = names::label(&id);
-                if paper && id != "planted" { words::paper_of(label) } else { label }
-            };
-            view! {
-                <li>
-                    <svg class="swatch-line" width="30" height="12" viewBox="0 0 30 12" aria-hidden="true">
-                        <g class=look><path class="way" d="M1 6H29"></path>{mark(place, 15.0, 6.0)}</g>
-                    </svg>
-                    <span>{words}</span>
-                </li>
-            }
-        })
-        .collect_view();
-
-    let axis = |a: &sightline::experiments::Axis| {
-        let (id, unit) = (a.id.clone(), a.unit.clone());
-        move || {
-            let label = names::label(&id);
-            if unit.is_empty() || label == unit { label } else { format!("{label} {unit}") }
-        }
-    };
-    let (across_label, up_label) = (axis(&chart.x), axis(&chart.y));
+    let plane = Plane::of(&chart);
+    let lines = chart.series.iter().map(|series| line(series, &ids, plane)).collect_view();
+    let (across, entries) = (ticks(&chart, plane), legend(&chart, &ids));
+    let (across_label, up_label) = (axis_label(&chart.x), axis_label(&chart.y));
     let id = chart.id.clone();
-    let titled = chart.clone();
-    let title = Signal::derive(move || names::chart(&titled));
+    let title = Signal::derive(move || names::chart(&chart));
     view! {
         <figure class="chart" data-chart=id>
             <h2 class="section-head"><span>{title}</span></h2>
             <svg class="plot" viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img" aria-label=title>
-                {grid}{across}
+                {grid(plane)}{across}
                 <text class="axis" x=LEFT - 44.0 y="12">{up_label}</text>
                 <text class="axis" x=WIDTH - RIGHT y=HEIGHT - 2.0 text-anchor="end">{across_label}</text>
                 {lines}

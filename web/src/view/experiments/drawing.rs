@@ -1,8 +1,8 @@
 //! The network in plan and elevation, to one scale.
 
 use leptos::prelude::*;
-use sightline::experiments::{Drawing, Drawn};
 use sightline::project::Role;
+use sightline_lab::experiments::{Drawing, Drawn};
 
 use super::names;
 use crate::format;

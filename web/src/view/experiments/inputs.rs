@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::detection::Method;
-use sightline::experiments::ExperimentOptions;
+use sightline_lab::experiments::ExperimentOptions;
 
 use crate::browser::event;
 use crate::format;
@@ -93,7 +93,7 @@ fn PapersInstrument() -> impl IntoView {
         desk.run_experiment();
     };
     view! {
-        <button class="button" data-action="papers-instrument" disabled=move || desk.job.with(Option::is_some) on:click=run>
+        <button class="button" data-action="papers-instrument" disabled=move || desk.tasks.job.with(Option::is_some) on:click=run>
             {move || words::papers_instrument(format::editable(SIGMA_MM))}
         </button>
     }

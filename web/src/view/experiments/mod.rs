@@ -6,12 +6,12 @@ mod inputs;
 mod names;
 mod outcome;
 mod plates;
+mod turned;
 
 use leptos::prelude::*;
-use sightline::experiments::{Drawing, NAMES, drawings};
+use sightline_lab::experiments::{Drawing, NAMES, drawings};
 
-use super::icon::{Glyph, Icon};
-use super::shell::TitleBar;
+use super::components::icon::{Glyph, Icon};
 use crate::browser::event;
 use crate::format;
 use crate::i18n::Text;
@@ -19,10 +19,12 @@ use crate::i18n::experiments as words;
 use crate::i18n::{inside, text};
 use crate::store::inside::Network;
 use crate::store::{Desk, JobKind};
+use crate::view::components::title::TitleBar;
 use drawing::NetworkDrawing;
 use inputs::Inputs;
 use outcome::Outcome;
 use plates::Plates;
+use turned::TurnedNetwork;
 
 /// Title, question, source.
 fn described(name: &str) -> [Text; 3] {
@@ -48,7 +50,7 @@ pub fn Experiments() -> impl IntoView {
                     <button
                         data-experiment=name
                         aria-current=move || (shown.get() == name).then_some("page")
-                        disabled=move || desk.job.with(|job| job.as_ref().is_some_and(|job| job.kind != JobKind::Experiment))
+                        disabled=move || desk.tasks.job.with(|job| job.as_ref().is_some_and(|job| job.kind != JobKind::Experiment))
                         on:click=move |_| desk.show_experiment(name)
                     >
                         {title}
@@ -69,6 +71,9 @@ fn Page(name: &'static str) -> impl IntoView {
         |a, b| a.as_ref().map(|r| std::ptr::from_ref(&**r)) != b.as_ref().map(|r| std::ptr::from_ref(&**r)),
     );
     let done = Memo::new(move |_| current.with(Option::is_some));
+    // The network that is turned, while one is.
+    let turned = RwSignal::new(None::<Drawing>);
+    let turns = Memo::new(move |_| turned.with(Option::is_some));
     let stale = Memo::new(move |_| !done.get() && desk.experiments.ran(name).is_some());
     view! {
         <TitleBar title=title sentence=Signal::derive(move || question().to_owned())>
@@ -91,10 +96,11 @@ fn Page(name: &'static str) -> impl IntoView {
             <aside class="scroll">
                 <h2 class="section-head"><span>{words::vary}</span></h2>
                 <Inputs name/>
-                <Drawings name/>
+                <Drawings name turned/>
                 <p class="note source">{source}</p>
             </aside>
             <section class="scroll outcome" data-experiment=name>
+                <Show when=move || turns.get()><TurnedNetwork drawing=turned/></Show>
                 {move || match current.get() {
                     Some(ran) => view! { <Outcome ran/> }.into_any(),
                     None if stale.get() => view! {
@@ -110,7 +116,7 @@ fn Page(name: &'static str) -> impl IntoView {
 
 /// The networks as they follow from what is chosen, one at a time.
 #[component]
-fn Drawings(name: &'static str) -> impl IntoView {
+fn Drawings(name: &'static str, turned: RwSignal<Option<Drawing>>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let all =
         Memo::new(move |_| -> Vec<Drawing> { drawings(name, &desk.experiments.options(name)).unwrap_or_default() });
@@ -121,6 +127,15 @@ fn Drawings(name: &'static str) -> impl IntoView {
         place.set(0);
     });
     let ids = Memo::new(move |_| all.with(|all| all.iter().map(|d| d.id.clone()).collect::<Vec<_>>()));
+    let shown = Memo::new(move |_| all.with(|all| all.get(place.get()).cloned()));
+    let turns = Memo::new(move |_| turned.with(Option::is_some));
+    // What is turned follows the choice.
+    Effect::new(move || {
+        let drawing = shown.get();
+        if turned.with_untracked(Option::is_some) {
+            turned.set(drawing);
+        }
+    });
     let photos = move || all.with(|all| all.get(place.get()).map_or(0, |d| d.photos.len()));
     let shown_name = |id: &str| if id == "all" { words::all_photos().to_owned() } else { names::name(id) };
     view! {
@@ -139,6 +154,8 @@ fn Drawings(name: &'static str) -> impl IntoView {
                 </select>
             </Show>
         </h2>
-        {move || all.with(|all| all.get(place.get()).cloned()).map(|drawing| view! { <NetworkDrawing drawing/> })}
+        {move || shown.get().map(|drawing| view! { <NetworkDrawing drawing/> })}
+        <button class="text-button" data-action="turn" aria-pressed=move || turns.get().to_string()
+            on:click=move |_| turned.set(if turned.with_untracked(Option::is_some) { None } else { shown.get_untracked() })>{words::turn}</button>
     }
 }

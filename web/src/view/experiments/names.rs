@@ -1,6 +1,6 @@
 //! Words for the engine's identifiers; those without words are symbols shown as they are.
 
-use sightline::experiments::{Assumption, Chart, Figure};
+use sightline_lab::experiments::{Assumption, Chart, Figure};
 
 use crate::format;
 use crate::i18n::experiments as words;
@@ -279,7 +279,7 @@ pub fn chart(chart: &Chart) -> String {
     }
 }
 
-/// What was assumed, as a sentence.
+/// An assumption as a sentence.
 pub fn assumption(a: &Assumption) -> String {
     let value = |v: Option<f64>| v.map(format::editable).unwrap_or_default();
     let (ours, paper) = (value(a.ours), value(a.paper));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::experiments::{Assumption, Cell, Column, Experiment, Figure, Table};
+use sightline_lab::experiments::{Assumption, Cell, Column, Experiment, Figure, Table};
 
 use super::chart::LineChart;
 use super::names;
@@ -11,7 +11,7 @@ use crate::format;
 use crate::i18n::experiments as words;
 use crate::i18n::text;
 use crate::store::Desk;
-use crate::store::experiments::Ran;
+use crate::store::experiments::ExperimentRun;
 
 /// Numbers of more decimals than this are shown with a power of ten.
 const PLAIN: usize = 6;
@@ -33,7 +33,7 @@ fn key_figures(name: &str) -> &'static [&'static str] {
 }
 
 #[component]
-pub fn Outcome(ran: Arc<Ran>) -> impl IntoView {
+pub fn Outcome(ran: Arc<ExperimentRun>) -> impl IntoView {
     let experiment: &Experiment = &ran.experiment;
     // What no paper has is compared with none.
     let of_paper = experiment.figures.iter().any(|figure| figure.paper.is_some());

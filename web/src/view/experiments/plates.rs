@@ -1,8 +1,8 @@
 //! Your own plates: fiducial marks and distortion table entered, readings from a file or measured in scanned photos.
 
 use leptos::prelude::*;
-use sightline::exchange::comparator::Reduced;
-use sightline::experiments::film_description;
+use sightline_exchange::comparator::Reduced;
+use sightline_lab::experiments::film_description;
 
 use super::names;
 use crate::browser::{event, file};

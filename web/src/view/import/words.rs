@@ -1,15 +1,16 @@
 //! How a list was read, in words: its columns and every assumption.
 
 use sightline::axes::ShownAxes;
-use sightline::exchange::control_csv::{
-    Assumption, Axes, Basis, Beside, Decimal, Field as ControlField, ListFormat, Separator,
+use sightline::project::LocalSystem;
+use sightline_exchange::control_csv::{
+    AngleForm, Assumption, Axes, Basis, Beside, Decimal, Field as ControlField, ListFormat, Separator,
 };
-use sightline::exchange::encoding::Encoding;
+use sightline_exchange::encoding::Encoding;
 
 use crate::format;
 use crate::i18n::{lists, text};
 
-/// What a column can hold, for its menu.
+/// Possible contents of a column, for its menu.
 pub(super) fn field_word(axes: ShownAxes, field: ControlField) -> String {
     let [x, y, z] = [0, 1, 2].map(|axis| axes.letter(axis));
     match field {
@@ -18,6 +19,8 @@ pub(super) fn field_word(axes: ShownAxes, field: ControlField) -> String {
         ControlField::X => lists::column_x(x),
         ControlField::Y => lists::column_y(y),
         ControlField::Z => lists::column_z(z),
+        ControlField::Latitude => lists::column_latitude().to_owned(),
+        ControlField::Longitude => lists::column_longitude().to_owned(),
         ControlField::Sx => format!("σ {x}"),
         ControlField::Sy => format!("σ {y}"),
         ControlField::Sz => format!("σ {z}"),
@@ -34,7 +37,9 @@ fn column_name(axes: ShownAxes, field: ControlField) -> String {
         ControlField::X => axes.letter(0).to_owned(),
         ControlField::Y => axes.letter(1).to_owned(),
         ControlField::Z => axes.letter(2).to_owned(),
-        ControlField::Sx | ControlField::Sy | ControlField::Sz => field_word(axes, field),
+        ControlField::Latitude | ControlField::Longitude | ControlField::Sx | ControlField::Sy | ControlField::Sz => {
+            field_word(axes, field)
+        }
         ControlField::Sxy => format!("σ {}, {}", axes.letter(0), axes.letter(1)),
         other => other.name().to_owned(),
     }
@@ -60,7 +65,7 @@ fn encoding_word(encoding: Encoding) -> &'static str {
     }
 }
 
-/// An assumption as a sentence, where there is something to say.
+/// An assumption as a sentence, if there is one.
 pub(super) fn assumption_words(axes: ShownAxes, assumption: &Assumption) -> Option<String> {
     Some(match assumption {
         Assumption::Format { format, .. } => lists::read_format(format_word(*format)),
@@ -97,7 +102,7 @@ pub(super) fn assumption_words(axes: ShownAxes, assumption: &Assumption) -> Opti
             let names = columns.iter().map(name).collect::<Vec<_>>().join(", ");
             match by {
                 Basis::Heading => text::read_columns(names),
-                // The menus say it.
+                // The menus show it.
                 Basis::Given => return None,
                 _ => text::read_columns_assumed(names),
             }
@@ -105,6 +110,20 @@ pub(super) fn assumption_words(axes: ShownAxes, assumption: &Assumption) -> Opti
         Assumption::AxisOrder { by: Basis::Undecided, .. } => return None,
         Assumption::AxisOrder { order: Axes::Xy, .. } => lists::read_east_first().to_owned(),
         Assumption::AxisOrder { order: Axes::Yx, .. } => lists::read_north_first().to_owned(),
+        Assumption::LocalSystem { system, form, height_unit, by } => {
+            let LocalSystem { latitude, longitude, height, .. } = *system;
+            let form = match form {
+                AngleForm::Degrees => lists::angles_degrees(),
+                AngleForm::Sexagesimal => lists::angles_sexagesimal(),
+            };
+            let [latitude, longitude, height] = [latitude, longitude, height].map(format::editable);
+            let origin = match by {
+                Basis::Given => lists::local_origin_given(),
+                _ => lists::local_origin_own(),
+            };
+            let said = lists::read_local_system(form, height_unit.symbol(), latitude, longitude, height);
+            format!("{said} {origin}")
+        }
         Assumption::Unit { unit: Some(unit), .. } => lists::in_unit(unit.symbol()),
         Assumption::CommonSigma { by: Basis::Undecided, .. } => lists::sigma_needs_unit().to_owned(),
         Assumption::CommonSigma { points, .. } => lists::sigma_given(format::count(*points)),

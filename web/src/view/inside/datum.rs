@@ -3,10 +3,11 @@
 use leptos::prelude::*;
 use sightline::adjustment::AdjustedPoint;
 use sightline::project::DatumKind;
-use sightline::teaching::{DatumCase, Datums};
+use sightline_lab::teaching::{DatumCase, Datums};
 use sightline_protocol::Inquiry;
 
 use super::number;
+use super::transformed::STransformation;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{errors, inside as words};
@@ -34,7 +35,7 @@ pub fn Datum() -> impl IntoView {
             desk.inquire(Inquiry::Datums(None));
         }
     });
-    // The movement that a lesson speaks of.
+    // The movement that a lesson refers to.
     Effect::new(move || {
         if let Some(wanted) = inside.wanted.get().motion {
             let place = inside.datums.with(|found| {
@@ -59,7 +60,7 @@ pub fn Datum() -> impl IntoView {
     let shown = move || {
         let found = inside.datums.get()?;
         let (axes, motion) = (axes.get(), motion.get());
-        let frame = Frame::new(&found, axes, share.get());
+        let frame = PlotFrame::new(&found, axes, share.get());
         let columns = found.cases.iter().map(|case| {
             let moved = motion.filter(|_| case.kind == DatumKind::Free).and_then(|k| found.motions.get(k));
             let moved = moved.map(|motion| motion.points.clone());
@@ -104,6 +105,7 @@ pub fn Datum() -> impl IntoView {
             </div>
             {move || shown().map_or_else(|| view! { <p class="note">{words::computing}</p> }.into_any(), IntoAny::into_any)}
             {motions}
+            <STransformation held/>
         </main>
     }
 }
@@ -120,7 +122,8 @@ fn motion_name(name: &str) -> &'static str {
     }
 }
 
-fn datum_name(kind: DatumKind) -> &'static str {
+/// The name of a datum.
+pub(super) fn datum_name(kind: DatumKind) -> &'static str {
     match kind {
         DatumKind::Control => words::datum_control(),
         DatumKind::Minimal => words::datum_minimal(),
@@ -128,9 +131,9 @@ fn datum_name(kind: DatumKind) -> &'static str {
     }
 }
 
-/// Where points stand in all three pictures.
+/// Maps coordinates to the three pictures of the datums.
 #[derive(Clone, Copy)]
-struct Frame {
+struct PlotFrame {
     axes: [usize; 2],
     middle: [f64; 2],
     scale: f64,
@@ -138,7 +141,7 @@ struct Frame {
     factor: f64,
 }
 
-impl Frame {
+impl PlotFrame {
     fn new(found: &Datums, axes: [usize; 2], share: f64) -> Self {
         let all = || found.cases.iter().flat_map(|case| &case.points);
         let range = |axis: usize| {
@@ -175,7 +178,7 @@ impl Frame {
 
 fn column(
     case: &DatumCase,
-    frame: &Frame,
+    frame: &PlotFrame,
     moved: Option<Vec<[f64; 3]>>,
     hold: impl Fn(String) + Copy + Send + Sync + 'static,
     held: RwSignal<Vec<String>>,
@@ -213,12 +216,13 @@ fn column(
         let marks = marks.collect_view();
         let worst = worst(&case.points);
         let [x, y, z] = case.rms.map(number);
+        let unit = expect_context::<Desk>().inside.unit();
         view! {
             <svg viewBox=format!("0 0 {} {}", SIDE[0], SIDE[1]) role="img" aria-label=datum_name(kind)>{marks}</svg>
             <table class="table words"><tbody>
-                <tr><td class="left">{words::trace}</td><td><b data-trace="">{number(case.trace)}</b></td></tr>
-                <tr><td class="left">{words::rms_sigma}</td><td><b>{format!("{x}  {y}  {z}")}</b></td></tr>
-                {worst.map(|(id, sigma)| view! { <tr><td class="left">{words::largest_sigma}</td><td>{number(sigma)} " (" {id} ")"</td></tr> })}
+                <tr><td class="left">{words::trace} " " <u>{unit.clone()}"²"</u></td><td><b data-trace="">{number(case.trace)}</b></td></tr>
+                <tr><td class="left">{words::rms_sigma} " " <u>{unit.clone()}</u></td><td><b>{format!("{x}  {y}  {z}")}</b></td></tr>
+                {worst.map(|(id, sigma)| view! { <tr><td class="left">{words::largest_sigma} " " <u>{unit.clone()}</u></td><td>{number(sigma)} " (" {id} ")"</td></tr> })}
                 <tr><td class="left">{words::fixed_by}</td><td>{if kind == DatumKind::Control { words::given_coordinates(case.given) } else { words::constraints(case.constraints) }}</td></tr>
             </tbody></table>
         }.into_any()
@@ -237,7 +241,7 @@ fn worst(points: &[AdjustedPoint]) -> Option<(String, f64)> {
     all.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// vᵀPv under each datum, with what stands between them.
+/// vᵀPv under each datum, with the signs between them.
 fn equality(found: &Datums) -> impl IntoView + use<> {
     let done: Vec<&DatumCase> = found.cases.iter().filter(|case| !case.points.is_empty()).collect();
     let mut parts = Vec::new();

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::adjust::Equation as Observation;
-use sightline::teaching::{Collinearity, Explained};
+use sightline_lab::teaching::{Collinearity, Explained};
 
 use super::number;
 use crate::browser::event;
@@ -14,13 +14,12 @@ use crate::store::Desk;
 pub fn Equation() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let inside = desk.inside;
-    let rows = Memo::new(move |_| {
-        let first = inside.steps.with(|steps| steps.first().cloned());
-        first.map_or(0, |looked| looked.system.observations.len())
-    });
+    // A step changes no name: the list of a large network takes longer than the step.
+    let first = inside.first();
+    let rows = Memo::new(move |_| first.get().map_or(0, |looked| looked.system.observations.len()));
     let now = move || {
         let looked = inside.looked()?;
-        let row = inside.row.get().filter(|row| *row < looked.system.observations.len())?;
+        let row = inside.row.get().filter(|row| *row < looked.observations().len())?;
         Some((looked, row))
     };
     let explained = move |row: usize| {
@@ -28,8 +27,8 @@ pub fn Equation() -> impl IntoView {
         inside.explained.get().filter(|(at, explained)| *at == step && explained.row == row).map(|found| found.1)
     };
     let names = move || {
-        let first = inside.steps.with(|steps| steps.first().cloned());
-        let all = first.map(|looked| looked.system.observations.iter().map(|row| row.name.clone()).collect::<Vec<_>>());
+        let all =
+            first.get().map(|looked| looked.system.observations.iter().map(|row| row.name.clone()).collect::<Vec<_>>());
         all.unwrap_or_default()
     };
     view! {
@@ -39,7 +38,7 @@ pub fn Equation() -> impl IntoView {
         <div class="find">
             <label><span class="visually-hidden">{words::find}</span>
                 <input type="text" list="inside-rows" name="observation" autocomplete="off" placeholder=words::find
-                    prop:value=move || now().map(|(looked, row)| looked.system.observations[row].name.clone()).unwrap_or_default()
+                    prop:value=move || now().map(|(looked, row)| looked.observations()[row].name.clone()).unwrap_or_default()
                     on:change=move |e| {
                         let typed = event::value(&e);
                         let found = untrack(names).iter().position(|name| *name == typed.trim());
@@ -50,7 +49,7 @@ pub fn Equation() -> impl IntoView {
         {move || match now() {
             None => view! { <p class="hint">{words::choose_observation}</p> }.into_any(),
             Some((looked, row)) => {
-                let observation = looked.system.observations[row].clone();
+                let observation = Observation { value: looked.observed[row], ..looked.observations()[row].clone() };
                 let (l, p) = (looked.system.l[row], looked.system.p[row]);
                 let found = explained(row);
                 view! {
@@ -109,9 +108,9 @@ fn Derivatives(row: usize, found: Option<Explained>) -> impl IntoView {
     let inside = desk.inside;
     let Some(looked) = untrack(|| inside.looked()) else { return ().into_any() };
     let entries: Vec<(usize, f64)> = looked.system.a.row(row).collect();
-    let counted = words::not_zero(format::count(entries.len()), format::count(looked.system.unknowns.len()));
+    let counted = words::not_zero(format::count(entries.len()), format::count(looked.unknowns().len()));
     let lines = entries.into_iter().map(|(column, value)| {
-        let unknown = looked.system.unknowns[column].clone();
+        let unknown = looked.unknowns()[column].clone();
         let derivative = found.as_ref().and_then(|found| found.derivatives.iter().find(|one| one.unknown == column));
         let numerical = derivative.and_then(|one| one.numerical).map(number);
         let moved = derivative.and_then(|one| one.moved).map(number);

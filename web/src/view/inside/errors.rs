@@ -1,7 +1,7 @@
 //! A simulated gross error: the response of the tests and of four estimators.
 
 use leptos::prelude::*;
-use sightline::teaching::{Estimate, Planted, Planting, Show, Tested};
+use sightline_lab::teaching::{Estimate, Planted, Planting, Show, Tested};
 use sightline_protocol::Inquiry;
 
 use super::number;
@@ -52,7 +52,7 @@ pub fn Errors() -> impl IntoView {
             plant();
         }
     });
-    // The error that a lesson speaks of.
+    // The error that a lesson refers to.
     Effect::new(move || {
         let wanted = inside.wanted.get();
         let place = inside.planted.with(|found| {
@@ -141,6 +141,7 @@ fn shown(
             <tbody>{rows}</tbody></table>
         }
     };
+    let unit = expect_context::<Desk>().inside.unit();
     let sentence = match own {
         Some(own) if own.w.abs() > found.critical => {
             words::found_it(format::fixed(own.w, 2), over, format::fixed(found.critical, 2))
@@ -155,8 +156,9 @@ fn shown(
         <div class="errors">
             <section>
                 <h2 class="section-head"><span>"|w|"</span><span class="aside">{words::least_squares}</span></h2>
+                <p class="hint">{words::w_is}</p>
                 {bars(found, is_chosen)}
-                {estimates(&found.estimates)}
+                {estimates(&found.estimates, &unit)}
             </section>
             <section>
                 <h2 class="section-head"><span>{words::observation}</span></h2>
@@ -212,7 +214,7 @@ fn bars(found: &Planted, is_chosen: impl Fn(&Tested) -> bool) -> AnyView {
     .into_any()
 }
 
-fn estimates(all: &[Estimate]) -> impl IntoView + use<> {
+fn estimates(all: &[Estimate], unit: &str) -> impl IntoView + use<> {
     let name = |one: &Estimate| match one.name.as_str() {
         "huber" => "Huber",
         "tukey" => "Tukey",
@@ -220,18 +222,18 @@ fn estimates(all: &[Estimate]) -> impl IntoView + use<> {
         _ => words::least_squares(),
     };
     let heads = all.iter().map(|one| view! { <th>{name(one)}</th> }).collect_view();
-    let row = |label: &'static str, key: &'static str, of: fn(&Estimate) -> String| {
+    let row = |label: &'static str, unit: &str, key: &'static str, of: fn(&Estimate) -> String| {
         let cells = all.iter().map(|one| view! { <td>{of(one)}</td> }).collect_view();
-        view! { <tr data-row=key><td class="left">{label}</td>{cells}</tr> }
+        view! { <tr data-row=key><td class="left">{label} " " <u>{unit.to_owned()}</u></td>{cells}</tr> }
     };
     view! {
         <table class="table words estimates"><thead><tr><th class="left"></th>{heads}</tr></thead><tbody>
-            {row("σ₀", "sigma0", |one| one.sigma0.map_or("–".to_owned(), |sigma0| format::fixed(sigma0, 3)))}
-            {row(words::point_moves(), "moved", |one| one.moved.map_or("–".to_owned(), number))}
-            {row(words::in_own_sigma(), "in-sigma", |one| one.moved_in_sigma.map_or("–".to_owned(), |moved| format::fixed(moved, 2)))}
-            {row(words::others_move(), "others", |one| number(one.others))}
-            {row(words::weight_factor(), "weight", |one| format::fixed(one.weight, 2))}
-            {row(words::weakened(), "weakened", |one| format::count(one.weakened))}
+            {row("σ₀", "", "sigma0", |one| one.sigma0.map_or("–".to_owned(), |sigma0| format::fixed(sigma0, 3)))}
+            {row(words::point_moves(), unit, "moved", |one| one.moved.map_or("–".to_owned(), number))}
+            {row(words::in_own_sigma(), "", "in-sigma", |one| one.moved_in_sigma.map_or("–".to_owned(), |moved| format::fixed(moved, 2)))}
+            {row(words::others_move(), unit, "others", |one| number(one.others))}
+            {row(words::weight_factor(), "", "weight", |one| format::fixed(one.weight, 2))}
+            {row(words::weakened(), "", "weakened", |one| format::count(one.weakened))}
         </tbody></table>
     }
 }

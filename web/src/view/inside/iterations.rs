@@ -30,11 +30,7 @@ pub fn Iterations() -> impl IntoView {
     };
     let strip = move || {
         let now = inside.step.get();
-        let unit = inside.steps.with(|steps| {
-            let unknowns = steps.first().map(|looked| &looked.system.unknowns);
-            unknowns.and_then(|all| all.iter().find(|unknown| unknown.point.is_some())).map(|one| one.unit.clone())
-        });
-        let unit = unit.unwrap_or_default();
+        let unit = inside.unit();
         let all = inside.steps.get().into_iter().enumerate().map(|(k, looked)| {
             let state = &looked.state;
             let sigma0 = state.sigma0.map_or("–".to_owned(), number);

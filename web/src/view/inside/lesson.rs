@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leptos::html::Aside;
 use leptos::prelude::*;
-use sightline::teaching::{Lesson, Question};
+use sightline_lab::teaching::{Lesson, Question};
 
 use crate::browser::{event, page};
 use crate::format;
@@ -26,7 +26,7 @@ pub fn Lessons() -> impl IntoView {
                     <button class="text-button" data-action="all-lessons" on:click=move |_| lessons.now.set(None)>"← " {words::lessons}</button>
                     <span class="aside">{move || if through.get() { words::summary().to_owned() } else { words::step_number(lessons.step.get() + 1, last) }}</span>
                 </div>
-                <h2>{move || lessons.said(&head.title)}</h2>
+                <h2>{move || lessons.in_language(&head.title)}</h2>
                 {move || if through.get() { view! { <Summary lesson=end.clone()/> }.into_any() } else { view! { <Step/> }.into_any() }}
                 <div class="row">
                     <button class="button" data-action="lesson-back" disabled=move || lessons.step.get() == 0
@@ -64,8 +64,8 @@ fn List() -> impl IntoView {
         let (begun, id, minutes) = (lesson.clone(), lesson.id.clone(), lesson.minutes);
         view! {
             <li><button data-lesson=id on:click=move |_| desk.begin_lesson(&begun)>
-                <b>{lessons.said(&lesson.title)}</b>
-                <span>{lessons.said(&lesson.aim)}</span>
+                <b>{lessons.in_language(&lesson.title)}</b>
+                <span>{lessons.in_language(&lesson.aim)}</span>
                 <small>{words::minutes(minutes)} " · " {words::answered_of(answered, asked)}</small>
             </button></li>
         }
@@ -74,7 +74,10 @@ fn List() -> impl IntoView {
         <h2>{words::lessons}</h2>
         <p class="hint">{words::lessons_hint}</p>
         <ul>{move || lessons.all.get().into_iter().map(line).collect_view()}</ul>
-        <button class="text-button" data-action="lesson-file" on:click=move |_| desk.open_lesson_file()>{words::open_lesson}</button>
+        <div class="row">
+            <button class="text-button" data-action="lesson-file" on:click=move |_| desk.open_lesson_file()>{words::open_lesson}</button>
+            <button class="text-button" data-action="lesson-progress" on:click=move |_| desk.save_lesson_progress()>{words::save_progress}</button>
+        </div>
         {move || lessons.refused.get().map(|why| view! { <p class="note warn" role="alert">{words::no_lesson(why)}</p> })}
     }
 }
@@ -86,7 +89,7 @@ fn Step() -> impl IntoView {
         let step = lessons.current()?;
         let text = step.text.clone();
         Some(view! {
-            <p class="lesson-text">{move || lessons.said(&text)}</p>
+            <p class="lesson-text">{move || lessons.in_language(&text)}</p>
             {step.ask.map(|ask| view! { <Ask ask/> })}
         })
     }
@@ -98,7 +101,7 @@ fn Ask(ask: Question) -> impl IntoView {
     let lessons = desk.lessons;
     let Question { text, value, tolerance, unit, choices, hint, why } = ask;
     let unreadable = RwSignal::new(false);
-    // What makes the answer known, and what stands in its way.
+    // The data for the answer, and the reasons why it is not available.
     let needed: Vec<String> = value.iter().cloned().chain(choices.iter().map(|choice| choice.when.clone())).collect();
     let (first, all) = (needed.clone(), needed);
     let known = Memo::new(move |_| first.iter().all(|text| matches!(desk.lesson_value(text), Some(Ok(_)))));
@@ -129,21 +132,21 @@ fn Ask(ask: Question) -> impl IntoView {
         };
         view! {
             <label class="choice"><input type="radio" name="lesson-choice" disabled=move || !known.get() on:change=check/>
-                <span>{move || lessons.said(&choice.text)}</span></label>
+                <span>{move || lessons.in_language(&choice.text)}</span></label>
         }
     });
     let chosen = chosen.collect_view();
     view! {
         <fieldset class="ask">
-            <legend>{move || lessons.said(&text)}</legend>
+            <legend>{move || lessons.in_language(&text)}</legend>
             {typed}{chosen}
         </fieldset>
         <div role="status">
             {move || match (fault(), unreadable.get(), lessons.answered.get()) {
                 (Some(fault), _, _) => Some(view! { <p class="note warn">{words::no_answer(fault)}</p> }.into_any()),
                 (_, true, _) => Some(view! { <p class="note warn">{words::not_a_number}</p> }.into_any()),
-                (_, _, Some(true)) => Some(view! { <p class="note pass" data-answer="right"><b>{words::right}</b> " " {lessons.said(&why)}</p> }.into_any()),
-                (_, _, Some(false)) => Some(view! { <p class="note warn" data-answer="wrong"><b>{words::not_right}</b> " " {lessons.said(&hint)}</p> }.into_any()),
+                (_, _, Some(true)) => Some(view! { <p class="note pass" data-answer="right"><b>{words::right}</b> " " {lessons.in_language(&why)}</p> }.into_any()),
+                (_, _, Some(false)) => Some(view! { <p class="note warn" data-answer="wrong"><b>{words::not_right}</b> " " {lessons.in_language(&hint)}</p> }.into_any()),
                 _ => None,
             }}
         </div>
@@ -158,8 +161,8 @@ fn Summary(lesson: Arc<Lesson>) -> impl IntoView {
     let link = move || format!("#inside/{id}/{}", lessons.state());
     view! {
         <div class="lesson-summary">
-            <p class="lesson-text">{move || lessons.said(&aim)}</p>
-            <p class="lesson-text"><b>{move || lessons.said(&summary)}</b></p>
+            <p class="lesson-text">{move || lessons.in_language(&aim)}</p>
+            <p class="lesson-text"><b>{move || lessons.in_language(&summary)}</b></p>
             <p>{move || words::answered_of(lessons.right.with(std::collections::BTreeSet::len), asked)}</p>
             <div class="row">
                 <button class="button" data-action="lesson-print" on:click=move |_| page::print()>{words::print_summary}</button>

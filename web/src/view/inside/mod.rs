@@ -6,19 +6,21 @@ mod errors;
 mod iterations;
 mod lesson;
 mod matrices;
+mod movement;
+mod painting;
 mod picture;
+mod transformed;
 mod unknowns;
 mod weights;
 
 use leptos::prelude::*;
-use sightline::adjust::LinearSystem;
 
-use super::shell::TitleBar;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{Text, inside as words};
 use crate::store::Desk;
 use crate::store::inside::{Network, Tab};
+use crate::view::components::title::TitleBar;
 
 use datum::Datum;
 use errors::Errors;
@@ -41,14 +43,13 @@ pub fn Inside() -> impl IntoView {
     desk.follow_lesson_in_address();
     let sentence = move || match inside.looked() {
         Some(looked) => {
-            let LinearSystem { observations, unknowns, redundancy, .. } = &looked.system;
-            let count = |count: usize| format::count(count);
-            words::sentence(count(observations.len()), count(unknowns.len()), count(*redundancy))
+            let (rows, columns) = (looked.observations().len(), looked.unknowns().len());
+            words::sentence(format::count(rows), format::count(columns), format::count(looked.system.redundancy))
         }
         None => words::sentence_before().to_owned(),
     };
     view! {
-        <TitleBar title=words::inside sentence=Signal::derive(sentence)>
+        <TitleBar title=words::inside sentence=Memo::new(move |_| sentence())>
             <Networks/>
             <button class="button" data-action="export-inside" on:click=move |_| desk.export_inside()>{words::save_matrices}</button>
         </TitleBar>
@@ -109,7 +110,7 @@ fn Networks() -> impl IntoView {
     }
 }
 
-/// What stands where nothing is laid open: work under way, or none.
+/// Placeholder while no matrices are shown.
 #[component]
 pub fn NothingYet() -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -21,7 +21,7 @@ pub fn Weights() -> impl IntoView {
     let largest = RwSignal::new(40.0_f64);
     let weigh = move || desk.inquire(Inquiry::Weigh(image.get_untracked(), control.get_untracked()));
     let size = move || desk.inquire(Inquiry::Biases(SHARES.map(|share| share * largest.get_untracked()).to_vec()));
-    // What a lesson speaks of.
+    // What a lesson refers to.
     Effect::new(move || {
         let wanted = inside.wanted.get();
         if wanted.image.is_some() || wanted.control.is_some() {
@@ -49,7 +49,33 @@ pub fn Weights() -> impl IntoView {
                     on:input=move |e| value.set(10f64.powf(event::value(&e).parse().unwrap_or(0.0))) on:change=move |_| weigh()/></label>
         }
     };
-    let found = move || {
+    view! {
+        <main class="inside-page scroll">
+            <div class="errors">
+                <section>
+                    <h2 class="section-head"><span>{words::weights_title}</span></h2>
+                    <p class="hint">{words::weights_hint}</p>
+                    <div class="inside-options">{slider(words::image_sigma, "image-sigma", image)}{slider(words::control_sigma, "control-sigma", control)}</div>
+                    <Weighted/>
+                </section>
+                <section>
+                    <h2 class="section-head"><span>{words::target_size}</span></h2>
+                    <p class="hint">{words::target_size_hint}</p>
+                    <div class="inside-options"><label class="option wide"><span>{move || words::largest_diameter(format::fixed(largest.get(), 1))}</span>
+                        <input type="range" name="diameter" min="0.3" max="2.5" step="0.05" prop:value=move || largest.get().log10().to_string()
+                            on:input=move |e| largest.set(10f64.powf(event::value(&e).parse().unwrap_or(1.6))) on:change=move |_| size()/></label></div>
+                    <Biases/>
+                </section>
+            </div>
+        </main>
+    }
+}
+
+/// The adjustment with the scaled standard errors.
+#[component]
+fn Weighted() -> impl IntoView {
+    let inside = expect_context::<Desk>().inside;
+    move || {
         let found = inside.weighted.get()?;
         let test = found.test.as_ref().map(|test| {
             let said = if test.passed { text::test_passed() } else { text::test_failed() };
@@ -79,12 +105,18 @@ pub fn Weights() -> impl IntoView {
                 {test.map(|(figures, said, passed)| view! { <tr><td class="left">"vᵀPv, " {said}</td><td class:pass=passed class:bad=!passed>{figures}</td></tr> })}
                 <tr><td class="left">{words::image_residuals} " " <u>"px"</u></td><td>{found.rms_px.map(number)}</td></tr>
                 <tr><td class="left">{words::control_residuals}</td><td>{found.given.map(|given| format::fixed(given, 2))}</td></tr>
-                <tr><td class="left">{words::rms_sigma}</td><td>{format!("{x}  {y}  {z}")}</td></tr>
+                <tr><td class="left">{words::rms_sigma} " " <u>{inside.unit()}</u></td><td>{format!("{x}  {y}  {z}")}</td></tr>
                 {components}
             </tbody></table>
         })
-    };
-    let biases = move || {
+    }
+}
+
+/// Bias of ellipse centres by the diameter of the targets.
+#[component]
+fn Biases() -> impl IntoView {
+    let inside = expect_context::<Desk>().inside;
+    move || {
         let all = inside.biases.get();
         let unit = inside.steps.with(|steps| {
             steps.first().and_then(|looked| {
@@ -106,25 +138,5 @@ pub fn Weights() -> impl IntoView {
             <table class="table"><thead><tr><th>{words::diameter}</th><th>{words::rms_bias} " " <u>{unit.clone()}</u></th><th>{words::largest_bias} " " <u>{unit}</u></th><th>{words::in_sigma}</th><td class="left wide"></td></tr></thead>
             <tbody>{rows}</tbody></table>
         }
-    };
-    view! {
-        <main class="inside-page scroll">
-            <div class="errors">
-                <section>
-                    <h2 class="section-head"><span>{words::weights_title}</span></h2>
-                    <p class="hint">{words::weights_hint}</p>
-                    <div class="inside-options">{slider(words::image_sigma, "image-sigma", image)}{slider(words::control_sigma, "control-sigma", control)}</div>
-                    {found}
-                </section>
-                <section>
-                    <h2 class="section-head"><span>{words::target_size}</span></h2>
-                    <p class="hint">{words::target_size_hint}</p>
-                    <div class="inside-options"><label class="option wide"><span>{move || words::largest_diameter(format::fixed(largest.get(), 1))}</span>
-                        <input type="range" name="diameter" min="0.3" max="2.5" step="0.05" prop:value=move || largest.get().log10().to_string()
-                            on:input=move |e| largest.set(10f64.powf(event::value(&e).parse().unwrap_or(1.6))) on:change=move |_| size()/></label></div>
-                    {biases}
-                </section>
-            </div>
-        </main>
     }
 }

@@ -1,15 +1,15 @@
 //! How epochs are compared: reference points, levels of the tests, groups and thresholds.
 
 use leptos::prelude::*;
-use sightline::monitoring::{Correction, DatumChoice, Group, GroupModel, Method, VarianceChoice};
+use sightline::monitoring::{ComparisonMethod, Correction, DatumChoice, Group, GroupModel, VarianceChoice};
 
 use crate::browser::event;
 use crate::edit::epoch::names_in;
 use crate::format;
 use crate::i18n::{Text, monitoring as words};
 use crate::store::Desk;
-use crate::view::field::Field;
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::field::Field;
+use crate::view::components::icon::{Glyph, Icon};
 
 /// Common points that are offered to be pressed; of more the names are typed.
 const OFFERED: usize = 150;
@@ -36,6 +36,43 @@ fn Choice<T: Copy + PartialEq + Send + Sync + 'static>(
                 }).collect_view()}
             </select>
         </label>
+    }
+}
+
+/// The cameras that all epochs have, each to be shared by them or not.
+#[component]
+fn SharedCameras() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let options = desk.monitoring.options;
+    let names = Memo::new(move |_| {
+        // A camera that is shared and not there any more can still be taken off.
+        let mut all = desk.monitoring.common_cameras();
+        options.with(|o| {
+            all.extend(o.shared_cameras.iter().filter(|name| !all.contains(name)).cloned().collect::<Vec<_>>())
+        });
+        all
+    });
+    let button = move |name: String| {
+        let is_shared = {
+            let name = name.clone();
+            Signal::derive(move || options.with(|o| o.shared_cameras.contains(&name)))
+        };
+        let toggled = name.clone();
+        view! {
+            <button class="button small" type="button" aria-pressed=move || is_shared.get().to_string()
+                on:click=move |_| desk.choose_comparison(|o| match o.shared_cameras.iter().position(|n| *n == toggled) {
+                    Some(place) => _ = o.shared_cameras.remove(place),
+                    None => o.shared_cameras.push(toggled.clone()),
+                })>{name}</button>
+        }
+    };
+    view! {
+        <h3 class="section-head"><span>{words::shared_cameras}</span></h3>
+        <p class="hint">{words::shared_cameras_hint}</p>
+        <div class="common-points" data-field="shared-cameras">
+            {move || names.get().into_iter().map(button).collect_view()}
+            {move || names.with(Vec::is_empty).then(|| view! { <p class="note">{words::shared_cameras_none}</p> })}
+        </div>
     }
 }
 
@@ -84,12 +121,15 @@ pub fn Options() -> impl IntoView {
                     all=vec![(VarianceChoice::Estimated, words::variance_estimated as Text), (VarianceChoice::Separate, words::variance_separate), (VarianceChoice::Given, words::variance_given)]
                     set=Callback::new(move |value| desk.choose_comparison(|o| o.variance = value))/>
                 <Choice name="method" label=words::method now=Signal::derive(move || options.with(|o| o.method))
-                    all=vec![(Method::Coordinates, words::method_coordinates as Text), (Method::Joint, words::method_joint)]
+                    all=vec![(ComparisonMethod::Coordinates, words::method_coordinates as Text), (ComparisonMethod::Joint, words::method_joint)]
                     set=Callback::new(move |value| desk.choose_comparison(|o| o.method = value))/>
                 <Choice name="system" label=words::datum now=Signal::derive(move || options.with(|o| o.datum))
                     all=vec![(DatumChoice::Reference, words::datum_reference as Text), (DatumChoice::Given, words::datum_given)]
                     set=Callback::new(move |value| desk.choose_comparison(|o| o.datum = value))/>
             </div>
+            <Show when=move || options.with(|o| o.method == ComparisonMethod::Joint || !o.shared_cameras.is_empty())>
+                <SharedCameras/>
+            </Show>
             <h2 class="section-head"><span>{words::thresholds} " " <span class="id">{unit}</span></span></h2>
             <div class="option-fields">
                 <label class="option" data-field="warning"><span>{words::warning}</span>

@@ -109,105 +109,138 @@ pub fn Picture() -> impl IntoView {
     }
 }
 
+/// Maps the object to the picture, and displacements by their exaggeration.
+#[derive(Clone, Copy)]
+struct Layout {
+    right: [f64; 3],
+    up: [f64; 3],
+    middle: [f64; 2],
+    /// Units of the picture in one of length.
+    scale: f64,
+    /// Exaggeration of displacements.
+    factor: f64,
+}
+
+impl Layout {
+    fn of(pair: &Pair, [right, up]: [[f64; 3]; 2], factor: f64) -> Self {
+        let places: Vec<[f64; 2]> = pair.points.iter().map(|p| [dot(p.xyz, right), dot(p.xyz, up)]).collect();
+        let end = |start: f64, of: fn(f64, f64) -> f64| {
+            [0, 1].map(|axis| places.iter().map(|p: &[f64; 2]| p[axis]).fold(start, of))
+        };
+        let (low, high) = (end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max));
+        let span = [high[0] - low[0], high[1] - low[1]].map(|s| if s > 0.0 { s } else { 1e-9 });
+        let scale = ((WIDTH - 2.0 * MARGIN) / span[0]).min((HEIGHT - 2.0 * MARGIN) / span[1]);
+        let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+        Self { right, up, middle, scale, factor }
+    }
+
+    /// A vector in the plane of the picture.
+    fn flat(self, xyz: [f64; 3]) -> [f64; 2] {
+        [dot(xyz, self.right), dot(xyz, self.up)]
+    }
+
+    /// Place of a point in the picture.
+    fn at(self, xyz: [f64; 3]) -> [f64; 2] {
+        let [x, y] = self.flat(xyz);
+        [WIDTH / 2.0 + (x - self.middle[0]) * self.scale, HEIGHT / 2.0 - (y - self.middle[1]) * self.scale]
+    }
+}
+
+/// Head of an arrow between two places; `None` for a short one.
+fn arrow_head([x, y]: [f64; 2], [tip_x, tip_y]: [f64; 2]) -> Option<impl IntoView> {
+    let (dx, dy) = (tip_x - x, tip_y - y);
+    let length = dx.hypot(dy);
+    (length > 4.0).then(|| {
+        let (ux, uy) = (dx / length, dy / length);
+        let back = 6.0_f64.min(length);
+        let side = |s: f64| (tip_x - back * ux - s * 3.5 * uy, tip_y - back * uy + s * 3.5 * ux);
+        let ((ax, ay), (bx, by)) = (side(1.0), side(-1.0));
+        view! { <path class="tip" d=format!("M{tip_x:.1} {tip_y:.1}L{ax:.1} {ay:.1}L{bx:.1} {by:.1}Z")></path> }
+    })
+}
+
+/// A point with its displacement; with ellipse and value if it has moved or is chosen.
+fn displacement(desk: Desk, pair: &Pair, k: usize, layout: Layout, unit: &str) -> impl IntoView + use<> {
+    let chosen = desk.monitoring.point;
+    let point = &pair.points[k];
+    let look = look(pair, point);
+    let own = chosen.with(|id| id.as_ref() == Some(&point.id));
+    let decimals = sightline_report::epochs::decimals(pair);
+    let [x, y] = layout.at(point.xyz);
+    let [dx, dy] = layout.flat(point.difference).map(|d| d * layout.factor * layout.scale);
+    let (tip_x, tip_y) = (x + dx, y - dy);
+    let strong = matches!(look, "is-moved" | "is-out") || own;
+    let ellipse = point.ellipsoid.as_ref().filter(|_| strong).map(|ellipsoid| {
+        let (axes, angle) = ellipsoid.outline(layout.right, layout.up);
+        let [a, b] = axes.map(|axis| axis * layout.factor * layout.scale);
+        let turn = format!("rotate({:.2} {tip_x:.1} {tip_y:.1})", -angle.to_degrees());
+        view! { <ellipse class="zone" cx=tip_x cy=tip_y rx=a ry=b transform=turn></ellipse> }
+    });
+    let head = arrow_head([x, y], [tip_x, tip_y]);
+    let named = pair.points.len() <= NAMED || strong;
+    let name = named.then(|| view! { <text x=x + 7.0 y=y - 6.0>{point.id.clone()}</text> });
+    let value = strong.then(|| {
+        // The name stands above the point: the value is below it, or beyond the tip.
+        let below = if tip_y < y - 24.0 { tip_y - 8.0 } else { tip_y.max(y) + 16.0 };
+        view! { <text class="value" x=tip_x + 6.0 y=below>{format::fixed(point.length, decimals)}</text> }
+    });
+    let id = point.id.clone();
+    let title = format!("{} {} {unit}", point.id, format::fixed(point.length, decimals));
+    view! {
+        <g class=look class:chosen=own data-point=point.id.clone() on:click=move |_| chosen.set(Some(id.clone()))>
+            <title>{title}</title>
+            {ellipse}
+            <path class="shift" d=format!("M{x:.1} {y:.1}L{tip_x:.1} {tip_y:.1}")></path>
+            {head}{mark(look, x, y)}{name}{value}
+        </g>
+    }
+}
+
+/// The axes of the system that are not seen end on.
+fn axes(layout: Layout, letters: ShownAxes) -> impl IntoView {
+    let (from_x, from_y) = (40.0, HEIGHT - 26.0);
+    let axis = |(k, axis): (usize, [f64; 3])| {
+        let [x, y] = layout.flat(axis).map(|d| 34.0 * d);
+        let name = letters.letter(k);
+        (x.hypot(y) > 5.0).then(|| {
+            view! {
+                <path class="axes" d=format!("M{from_x:.1} {from_y:.1}l{x:.1} {:.1}", -y)></path>
+                <text class="axis" x=from_x + 1.3 * x y=from_y - 1.3 * y + 4.0 text-anchor="middle">{name}</text>
+            }
+        })
+    };
+    let all = [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])];
+    all.into_iter().filter_map(axis).collect_view()
+}
+
+fn rule(y: f64, length: f64, words: String) -> impl IntoView {
+    let end = WIDTH - 14.0;
+    let from = end - length;
+    view! {
+        <path class="rule" d=format!("M{from:.1} {:.1}v5H{end:.1}v-5", y - 5.0)></path>
+        <text class="axis" x=from - 6.0 y=y text-anchor="end">{words}</text>
+    }
+}
+
 fn drawn(desk: Desk) -> Option<impl IntoView> {
     let monitored = desk.monitoring;
     let (ran, (_, pair)) = monitored.current().zip(monitored.pair())?;
-    let seen = monitored.seen.get();
-    let [right, up] = seen.axes();
-    let flat = |xyz: [f64; 3]| [dot(xyz, right), dot(xyz, up)];
-    let places: Vec<[f64; 2]> = pair.points.iter().map(|p| flat(p.xyz)).collect();
-    let end = |axis: usize, start: f64, of: fn(f64, f64) -> f64| places.iter().map(|p| p[axis]).fold(start, of);
-    let low = [end(0, f64::INFINITY, f64::min), end(1, f64::INFINITY, f64::min)];
-    let high = [end(0, f64::NEG_INFINITY, f64::max), end(1, f64::NEG_INFINITY, f64::max)];
-    let span = [high[0] - low[0], high[1] - low[1]].map(|s| if s > 0.0 { s } else { 1e-9 });
-    let scale = ((WIDTH - 2.0 * MARGIN) / span[0]).min((HEIGHT - 2.0 * MARGIN) / span[1]);
-    let at = move |p: [f64; 2]| {
-        (
-            WIDTH / 2.0 + (p[0] - (low[0] + high[0]) / 2.0) * scale,
-            HEIGHT / 2.0 - (p[1] - (low[1] + high[1]) / 2.0) * scale,
-        )
-    };
-    let factor = factor(desk);
-    let few = pair.points.len() <= NAMED;
-    let chosen = monitored.point.get();
+    let layout = Layout::of(&pair, monitored.seen.get().axes(), factor(desk));
     let unit = unit(&ran);
-    let decimals = sightline::report::epochs::decimals(&pair);
     // What moved is drawn last, above everything else.
+    let chosen = monitored.point.get();
     let mut order: Vec<usize> = (0..pair.points.len()).collect();
     order.sort_by_key(|&k| (pair.points[k].moved, chosen.as_ref() == Some(&pair.points[k].id)));
-    let marks = order.into_iter().map(|k| {
-        let point = &pair.points[k];
-        let look = look(&pair, point);
-        let own = chosen.as_ref() == Some(&point.id);
-        let (x, y) = at(places[k]);
-        let [dx, dy] = flat(point.difference).map(|d| d * factor * scale);
-        let (tip_x, tip_y) = (x + dx, y - dy);
-        let strong = matches!(look, "is-moved" | "is-out") || own;
-        let ellipse = point.ellipsoid.as_ref().filter(|_| strong).map(|ellipsoid| {
-            let (axes, angle) = ellipsoid.outline(right, up);
-            let [a, b] = axes.map(|axis| axis * factor * scale);
-            let turn = format!("rotate({:.2} {tip_x:.1} {tip_y:.1})", -angle.to_degrees());
-            view! { <ellipse class="zone" cx=tip_x cy=tip_y rx=a ry=b transform=turn></ellipse> }
-        });
-        let length = dx.hypot(dy);
-        let head = (length > 4.0).then(|| {
-            let (ux, uy) = (dx / length, -dy / length);
-            let back = 6.0_f64.min(length);
-            let side = |s: f64| (tip_x - back * ux - s * 3.5 * uy, tip_y - back * uy + s * 3.5 * ux);
-            let ((ax, ay), (bx, by)) = (side(1.0), side(-1.0));
-            view! { <path class="tip" d=format!("M{tip_x:.1} {tip_y:.1}L{ax:.1} {ay:.1}L{bx:.1} {by:.1}Z")></path> }
-        });
-        let name = (few || strong).then(|| view! { <text x=x + 7.0 y=y - 6.0>{point.id.clone()}</text> });
-        let value = strong.then(|| {
-            // The name stands above the point: the value is below it, or beyond the tip.
-            let below = if tip_y < y - 24.0 { tip_y - 8.0 } else { tip_y.max(y) + 16.0 };
-            view! { <text class="value" x=tip_x + 6.0 y=below>{format::fixed(point.length, decimals)}</text> }
-        });
-        let id = point.id.clone();
-        let title = format!("{} {} {unit}", point.id, format::fixed(point.length, decimals));
-        view! {
-            <g class=look class:chosen=own data-point=point.id.clone() on:click=move |_| monitored.point.set(Some(id.clone()))>
-                <title>{title}</title>
-                {ellipse}
-                <path class="shift" d=format!("M{x:.1} {y:.1}L{tip_x:.1} {tip_y:.1}")></path>
-                {head}{mark(look, x, y)}{name}{value}
-            </g>
-        }
-    });
-    let marks = marks.collect_view();
+    let marks = order.into_iter().map(|k| displacement(desk, &pair, k, layout, &unit)).collect_view();
     // Two rules: lengths of the object, and of displacements at their exaggeration.
-    let bar = round(0.16 * WIDTH / scale);
-    let small = bar / factor;
-    // The axes of the system, as far as they are seen.
-    let letters = ShownAxes::of(ran.found.axes);
-    let axes = [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])]
-        .map(|(k, axis)| (letters.letter(k), axis))
-        .into_iter()
-        .filter_map(|(name, axis)| {
-            let [x, y] = flat(axis).map(|d| 34.0 * d);
-            let (from_x, from_y) = (40.0, HEIGHT - 26.0);
-            (x.hypot(y) > 5.0).then(|| {
-                view! {
-                    <path class="axes" d=format!("M{from_x:.1} {from_y:.1}l{x:.1} {:.1}", -y)></path>
-                    <text class="axis" x=from_x + 1.3 * x y=from_y - 1.3 * y + 4.0 text-anchor="middle">{name}</text>
-                }
-            })
-        });
-    let axes = axes.collect_view();
-    let rule = |y: f64, length: f64, words: String| {
-        let end = WIDTH - 14.0;
-        let from = end - length;
-        view! {
-            <path class="rule" d=format!("M{from:.1} {:.1}v5H{end:.1}v-5", y - 5.0)></path>
-            <text class="axis" x=from - 6.0 y=y text-anchor="end">{words}</text>
-        }
-    };
+    let bar = round(0.16 * WIDTH / layout.scale);
+    let (length, small) = (bar * layout.scale, bar / layout.factor);
     Some(view! {
         <svg class="displacements" viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img" aria-label=words::picture>
             {marks}
-            {axes}
-            {rule(HEIGHT - 30.0, bar * scale, format!("{} {unit}", format::round(bar)))}
-            {rule(HEIGHT - 12.0, bar * scale, format!("{} {} {unit}", words::exaggeration(), format::round(small)))}
+            {axes(layout, ShownAxes::of(ran.found.axes))}
+            {rule(HEIGHT - 30.0, length, format!("{} {unit}", format::round(bar)))}
+            {rule(HEIGHT - 12.0, length, format!("{} {} {unit}", words::exaggeration(), format::round(small)))}
         </svg>
     })
 }

@@ -1,16 +1,16 @@
-//! Displacements as tables: object points, reference points, groups, and what took no part.
+//! Displacements as tables: object points, reference points, groups, and items that were not used.
 
 use leptos::prelude::*;
 use sightline::axes::ShownAxes;
 use sightline::monitoring::{Displacement, GroupModel, Pair, PointRole, Tested};
-use sightline::report::epochs::decimals;
+use sightline_report::epochs::decimals;
 
 use super::unit;
-use super::words::{group_error_words, left_out_words, listed, p_words, state_words};
+use super::words::{group_error_words, left_out_words, p_words, state_words};
 use crate::format;
-use crate::i18n::{monitoring as words, text};
+use crate::i18n::{monitoring as words, name_list, text};
 use crate::store::Desk;
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 fn columns(unit: &str, axes: ShownAxes) -> Vec<Column> {
     let difference = |axis| Column::axis(|| "d", axis).unit(unit.to_owned());
@@ -142,7 +142,7 @@ pub fn Groups() -> impl IntoView {
                 GroupModel::Similarity => words::similarity(),
                 GroupModel::Affine => words::affine(),
             };
-            let missing = (!group.missing.is_empty()).then(|| words::group_missing(listed(&group.missing)));
+            let missing = (!group.missing.is_empty()).then(|| words::group_missing(name_list(&group.missing)));
             view! {
                 <div class="group-found" data-group=group.name.clone()>
                     <h3>{group.name.clone()} " " <small>{model} ", " {words::points} " " {group.points.len()}</small></h3>
@@ -165,7 +165,7 @@ pub fn Groups() -> impl IntoView {
     }
 }
 
-/// Points that took no part, by their reason.
+/// Points that were not used, by their reason.
 #[component]
 pub fn LeftOutPoints() -> impl IntoView {
     let desk = expect_context::<Desk>();

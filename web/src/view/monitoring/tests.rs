@@ -3,11 +3,11 @@
 use leptos::prelude::*;
 use sightline::monitoring::{Outcome, Test};
 
-use super::words::{basis, counts, epoch_notes, listed, notes, p_words};
+use super::words::{basis, counts, epoch_notes, notes, p_words};
 use crate::format;
-use crate::i18n::monitoring as words;
+use crate::i18n::{monitoring as words, name_list};
 use crate::store::Desk;
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::icon::{Glyph, Icon};
 
 /// The epochs; choosing one shows it against the first.
 #[component]
@@ -97,7 +97,7 @@ pub fn Tests() -> impl IntoView {
         let bars = bars.collect_view();
         let robust = match pair.robust_datum.unstable.as_slice() {
             [] => words::all_stable().to_owned(),
-            names => words::unstable_are(listed(names)),
+            names => words::unstable_are(name_list(names)),
         };
         let eliminated = !pair.steps.is_empty();
         Some(view! {
@@ -117,7 +117,7 @@ pub fn Tests() -> impl IntoView {
     }
 }
 
-/// What a reader must know.
+/// Note for the reader.
 #[component]
 pub fn Notes() -> impl IntoView {
     let desk = expect_context::<Desk>();

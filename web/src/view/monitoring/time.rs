@@ -2,16 +2,16 @@
 
 use leptos::prelude::*;
 use sightline::axes::ShownAxes;
-use sightline::monitoring::{Limits, Monitoring, Series, SeriesValue, State, days};
-use sightline::report::epochs::{MONTH, speed};
+use sightline::monitoring::{Limits, Monitoring, Series, SeriesValue, ThresholdState, days};
+use sightline_report::epochs::{MONTH, speed};
 
 use super::unit;
-use super::words::{listed, p_words, state_words};
+use super::words::{p_words, state_words};
 use crate::format;
-use crate::i18n::{monitoring as words, text};
+use crate::i18n::{monitoring as words, name_list, text};
 use crate::store::Desk;
-use crate::view::icon::{Glyph, Icon};
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::icon::{Glyph, Icon};
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 300.0;
@@ -84,7 +84,7 @@ pub fn OverTime() -> impl IntoView {
     }
 }
 
-fn chosen(desk: Desk) -> Option<(std::sync::Arc<crate::store::monitoring::Ran>, Series)> {
+fn chosen(desk: Desk) -> Option<(std::sync::Arc<crate::store::monitoring::ComparisonRun>, Series)> {
     let ran = desk.monitoring.current()?;
     let id = desk.monitoring.point.get();
     let known = ran.found.series.iter().find(|s| Some(&s.id) == id.as_ref());
@@ -110,20 +110,20 @@ fn head(desk: Desk) -> Option<impl IntoView> {
     };
     let state = series.state.map(|state| {
         let class = match state {
-            State::Quiet => "pass",
-            State::Warning => "warn",
-            State::Alarm => "bad",
+            ThresholdState::Quiet => "pass",
+            ThresholdState::Warning => "warn",
+            ThresholdState::Alarm => "bad",
         };
         let icon = match state {
-            State::Quiet => Icon::Check,
-            State::Warning => Icon::Warning,
-            State::Alarm => Icon::Cross,
+            ThresholdState::Quiet => Icon::Check,
+            ThresholdState::Warning => Icon::Warning,
+            ThresholdState::Alarm => Icon::Cross,
         };
         view! { <span class=class data-found="state"><Glyph icon size=14/> " " {state_words(state)}</span> }
     });
     let datum = match ran.found.series_datum.as_slice() {
         [] => words::series_no_datum().to_owned(),
-        names => words::series_datum(listed(names)),
+        names => words::series_datum(name_list(names)),
     };
     let last = series.values.last().map(|v| {
         let places = decimals(&ran.found);
@@ -370,8 +370,8 @@ fn AllPoints() -> impl IntoView {
             let mut p = Cell::words(series.velocity_test.map_or("–".to_owned(), |t| p_words(t.p))).class("");
             p.order = series.velocity_test.map(|t| t.p);
             let (state, class) = match series.state {
-                Some(State::Alarm) => (words::state_alarm(), "left bad"),
-                Some(State::Warning) => (words::state_warning(), "left warn"),
+                Some(ThresholdState::Alarm) => (words::state_alarm(), "left bad"),
+                Some(ThresholdState::Warning) => (words::state_warning(), "left warn"),
                 _ if moves(series) => (words::moves(), "left warn"),
                 _ => ("", "left"),
             };

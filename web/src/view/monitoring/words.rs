@@ -1,18 +1,14 @@
 //! The engine's findings in words: those of the report, in the language of the desk.
 
-use sightline::monitoring::{GroupError, LeftOut, Monitoring, Outcome, Pair, State};
+use sightline::monitoring::{GroupError, LeftOutPoint, Monitoring, Outcome, Pair, ThresholdState};
 use sightline::project::ReportLanguage;
-use sightline::report::epochs as told;
-pub use sightline::report::epochs::{counts, probability as p_words};
+use sightline_report::epochs as told;
+pub use sightline_report::epochs::{counts, probability as p_words};
 
 use crate::i18n::speech;
 
 fn language() -> ReportLanguage {
     speech().pages()
-}
-
-pub fn listed(names: &[String]) -> String {
-    told::listed(names, language())
 }
 
 /// Whether nothing moved, the verdict in one sentence, and of what it is.
@@ -25,7 +21,7 @@ pub fn notes(pair: &Pair) -> Vec<String> {
     told::notes(pair, language())
 }
 
-/// What was assumed of the epochs of a pair.
+/// Assumptions about the epochs of a pair.
 pub fn epoch_notes(found: &Monitoring, pair: &Pair) -> Vec<String> {
     told::assumed(found, pair, language())
 }
@@ -35,7 +31,7 @@ pub fn basis(found: &Monitoring, pair: &Pair) -> String {
     told::basis(found, pair, language())
 }
 
-pub fn state_words(state: State) -> &'static str {
+pub fn state_words(state: ThresholdState) -> &'static str {
     told::state(state, language())
 }
 
@@ -43,7 +39,7 @@ pub fn group_error_words(error: &GroupError) -> String {
     told::group_error(error, language())
 }
 
-/// Points that took no part, by their reason.
-pub fn left_out_words(left_out: &[LeftOut]) -> Vec<String> {
+/// Points that were not used, by their reason.
+pub fn left_out_words(left_out: &[LeftOutPoint]) -> Vec<String> {
     told::left_out(left_out, language())
 }

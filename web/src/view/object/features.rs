@@ -1,21 +1,22 @@
 //! The features panel: what is measured, with its standard errors; new ones from what is chosen; coordinate systems; lines.
 
 use leptos::prelude::*;
-use sightline::adjustment::{MeasuredFeature, MeasuredSystem, Quantity};
-use sightline::project::{FeatureKind, SystemKind};
-use sightline::report::plots::deviations_name;
+use sightline::adjustment::{FeatureResidual, MeasuredFeature, Quantity};
+use sightline::project::FeatureKind;
+use sightline_report::plots::deviations_name;
 
 use super::Chosen;
+use super::systems::Systems;
 use crate::browser::event;
+use crate::document::keys::Kind;
 use crate::edit::features::named;
 use crate::format;
 use crate::i18n::{Text, errors, object as words, text};
 use crate::store::Desk;
-use crate::store::selection::Kind;
-use crate::view::icon::{Glyph, Icon};
-use crate::view::results::drawings::Drawing;
-use crate::view::results::units::length_unit;
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::drawing::Drawing;
+use crate::view::components::icon::{Glyph, Icon};
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::units::length_unit;
 
 const KINDS: [(&str, Text); 8] = [
     ("distance", words::kind_distance),
@@ -44,7 +45,7 @@ pub fn Features() -> impl IntoView {
     let chosen = expect_context::<Chosen>();
     let count = move || desk.document.with(|d| d.project.features.len());
     let stale = Memo::new(move |_| desk.document.with(|d| d.features_out_of_date()));
-    // What was measured on an earlier state is measured again as soon as it is looked at.
+    // What was measured on an earlier state is measured again as soon as it is examined.
     Effect::new(move |_| {
         if stale.get() {
             desk.measure_features();
@@ -241,6 +242,38 @@ fn FeatureList() -> impl IntoView {
     }
 }
 
+/// Deviations of the points of a feature.
+fn residual_rows(feature: &MeasuredFeature) -> Vec<Row> {
+    let decimals = feature.rms.map_or(3, |r| format::decimals_for(r).max(3));
+    let row = |r: &FeatureResidual| Row {
+        key: r.point.clone(),
+        cells: vec![Cell::id(&r.point), Cell::number(Some(r.value), decimals), Cell::number(r.sigma, decimals)],
+        off: false,
+    };
+    feature.residuals.iter().map(row).collect()
+}
+
+/// Coordinates of a feature, and their standard errors.
+fn position(feature: &MeasuredFeature) -> Option<(String, String)> {
+    let sigma = feature.sigma_position?;
+    let decimals = format::decimals_for(sigma.into_iter().fold(f64::INFINITY, f64::min));
+    let row = |all: [f64; 3]| all.map(|x| format::fixed(x, decimals)).join("\u{2003}");
+    Some((row(feature.position?), row(sigma)))
+}
+
+/// Direction of a feature with its standard error.
+fn direction(feature: &MeasuredFeature) -> Option<String> {
+    let sigma = feature.sigma_direction.map(|s| format!(" ± {}°", format::compact(s.to_degrees()))).unwrap_or_default();
+    Some(format!("{}{sigma}", feature.direction?.map(|x| format::fixed(x, 6)).join("\u{2003}")))
+}
+
+/// RMS and range of the deviations.
+fn range(feature: &MeasuredFeature) -> Option<String> {
+    let ([low, high], rms) = (feature.range?, feature.rms?);
+    let decimals = format::decimals_for(rms).max(3);
+    Some(words::range(format::fixed(rms, decimals), format::fixed(low, decimals), format::fixed(high, decimals)))
+}
+
 /// The feature chosen last: its name, its position and direction, the residuals of its points.
 #[component]
 fn Detail() -> impl IntoView {
@@ -260,48 +293,7 @@ fn Detail() -> impl IntoView {
             Column::number(|| "σ").unit(unit.get()),
         ]
     });
-    let rows = Memo::new(move |_| {
-        measured.with(|m| {
-            let Some(m) = m else { return Vec::new() };
-            let decimals = m.rms.map_or(3, |r| format::decimals_for(r).max(3));
-            let row = |r: &sightline::adjustment::FeatureResidual| Row {
-                key: r.point.clone(),
-                cells: vec![Cell::id(&r.point), Cell::number(Some(r.value), decimals), Cell::number(r.sigma, decimals)],
-                off: false,
-            };
-            m.residuals.iter().map(row).collect::<Vec<_>>()
-        })
-    });
-    let place = move || {
-        measured.with(|m| {
-            let m = m.as_ref()?;
-            let sigma = m.sigma_position?;
-            let decimals = format::decimals_for(sigma.into_iter().fold(f64::INFINITY, f64::min));
-            let [place, sigma] =
-                [m.position?, sigma].map(|all| all.map(|x| format::fixed(x, decimals)).join("\u{2003}"));
-            Some((place, sigma))
-        })
-    };
-    let direction = move || {
-        measured.with(|m| {
-            let m = m.as_ref()?;
-            let sigma =
-                m.sigma_direction.map(|s| format!(" ± {}°", format::compact(s.to_degrees()))).unwrap_or_default();
-            Some(format!("{}{sigma}", m.direction?.map(|x| format::fixed(x, 6)).join("\u{2003}")))
-        })
-    };
-    let range = move || {
-        measured.with(|m| {
-            let m = m.as_ref()?;
-            let ([low, high], rms) = (m.range?, m.rms?);
-            let decimals = format::decimals_for(rms).max(3);
-            Some(words::range(
-                format::fixed(rms, decimals),
-                format::fixed(low, decimals),
-                format::fixed(high, decimals),
-            ))
-        })
-    };
+    let rows = Memo::new(move |_| measured.with(|m| m.as_ref().map(residual_rows).unwrap_or_default()));
     let point = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
     let on_choose = Callback::new(move |id: String| desk.select_point(&id));
     let deviates = Memo::new(move |_| rows.with(|rows| rows.len() >= 3));
@@ -338,11 +330,11 @@ fn Detail() -> impl IntoView {
                         </span>
                     </h2>
                     <dl class="facts">
-                        {move || place().map(|(p, sigma)| view! {
+                        {move || measured.with(|m| m.as_ref().and_then(position)).map(|(p, sigma)| view! {
                             <dt>{words::position} " " <u>{unit}</u></dt><dd>{p}</dd><dt>"± 1σ"</dt><dd>{sigma}</dd>
                         })}
-                        {move || direction().map(|d| view! { <dt>{words::direction}</dt><dd>{d}</dd> })}
-                        {move || range().map(|r| view! { <dt>{words::form}  " " <u>{unit}</u></dt><dd>{r}</dd> })}
+                        {move || measured.with(|m| m.as_ref().and_then(direction)).map(|d| view! { <dt>{words::direction}</dt><dd>{d}</dd> })}
+                        {move || measured.with(|m| m.as_ref().and_then(range)).map(|r| view! { <dt>{words::form}  " " <u>{unit}</u></dt><dd>{r}</dd> })}
                     </dl>
                     {move || plot.get().map(|plot| view! { <div class="drawings"><Drawing plot/></div> })}
                     <Show when=move || !rows.with(Vec::is_empty)>
@@ -352,134 +344,6 @@ fn Detail() -> impl IntoView {
             }
         })}
     }
-}
-
-#[component]
-fn Systems() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let all = Memo::new(move |_| {
-        desk.document.with(|d| {
-            let measured = |id: &str| d.current()?.adjustment.systems.iter().find(|s| s.id == id).cloned();
-            let fresh = !d.features_out_of_date();
-            let one = |s: &sightline::project::CoordinateSystem| {
-                (s.id.clone(), system_word(&s.kind), has_weights(&s.kind), measured(&s.id).filter(|_| fresh))
-            };
-            d.project.systems.iter().map(one).collect::<Vec<_>>()
-        })
-    });
-    let unit = Memo::new(move |_| desk.document.with(length_unit));
-    let open = RwSignal::new(None::<String>);
-    let sorting = RwSignal::new(None::<Sorting>);
-    let columns = Signal::derive(move || {
-        let number = |name: fn() -> &'static str, low| Column::number(name).low(low).unit(unit.get());
-        vec![
-            Column::words(text::id),
-            number(|| "X", ""),
-            number(|| "Y", ""),
-            number(|| "Z", ""),
-            number(|| "σ", "X"),
-            number(|| "σ", "Y"),
-            number(|| "σ", "Z"),
-        ]
-    });
-    let rows = Memo::new(move |_| {
-        let Some(id) = open.get() else { return Vec::new() };
-        all.with(|all| {
-            let Some(Some(system)) = all.iter().find(|(name, ..)| *name == id).map(|(.., m)| m) else {
-                return Vec::new();
-            };
-            let sigmas = system.points.iter().filter_map(|p| p.sigma).flatten().filter(|s| *s > 0.0);
-            let decimals = format::decimals_for(sigmas.fold(f64::INFINITY, f64::min));
-            let row = |p: &sightline::adjustment::SystemPoint| {
-                let mut cells = vec![Cell::id(&p.id)];
-                cells.extend(p.xyz.map(|x| Cell::number(Some(x), decimals)));
-                cells.extend((0..3).map(|k| Cell::number(p.sigma.map(|s| s[k]), decimals)));
-                Row { key: p.id.clone(), cells, off: false }
-            };
-            system.points.iter().map(row).collect()
-        })
-    });
-    let point = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
-    let on_choose = Callback::new(move |id: String| desk.select_point(&id));
-    // The one that is open, and whether its scale is fitted, where that can be chosen.
-    let opened = Memo::new(move |_| {
-        let id = open.get()?;
-        desk.document.with(|d| {
-            let system = d.project.systems.iter().find(|s| s.id == id)?;
-            Some((id, if let SystemKind::BestFit { scale, .. } = system.kind { Some(scale) } else { None }))
-        })
-    });
-    view! {
-        <Show when=move || !all.with(Vec::is_empty)>
-            <h2 class="section-head"><span>{words::systems}</span></h2>
-            <ul class="feature-list">
-                {move || all.get().into_iter().map(|(id, word, weighted, measured)| {
-                    let (key, gone, shown) = (id.clone(), id.clone(), id.clone());
-                    let unit = unit.get();
-                    let (note, fault) = said(measured.as_ref(), if weighted { "" } else { &unit });
-                    view! {
-                        <li>
-                            <button class="feature" data-system=key aria-expanded=move || open.with(|o| o.as_ref() == Some(&shown)).to_string()
-                                on:click=move |_| open.update(|o| *o = if o.as_ref() == Some(&id) { None } else { Some(id.clone()) })>
-                                <b class="letter">{gone.clone()}</b><span class="what">{word}<small>{note}</small></span>
-                                <span class="fault">{fault}</span>
-                            </button>
-                            <button class="link" on:click=move |_| desk.remove_feature(&gone)>{words::remove}</button>
-                        </li>
-                    }
-                }).collect_view()}
-            </ul>
-            {move || opened.get().map(|(id, scale)| {
-                let (from, scaled) = (id.clone(), id.clone());
-                view! {
-                    <h2 class="section-head">
-                        <span>
-                            <input class="feature-name" name="system-name" type="text" aria-label=words::system_name prop:value=id
-                                on:change=move |e| {
-                                    let to = event::value(&e);
-                                    if desk.rename_feature(&from, &to) {
-                                        open.set(Some(to.trim().to_owned()));
-                                    }
-                                }/>
-                        </span>
-                        <span class="aside">
-                            {scale.map(|on| view! {
-                                <label class="tick"><input type="checkbox" name="system-scale" prop:checked=on
-                                    on:change=move |e| desk.scale_system(&scaled, event::checked(&e))/> <span>{words::with_scale}</span></label>
-                            })}
-                            <CopyButton columns rows/>
-                        </span>
-                    </h2>
-                }
-            })}
-            <Show when=move || !rows.with(Vec::is_empty)>
-                <NumberTable label=words::systems columns rows chosen=point on_choose sorting/>
-            </Show>
-        </Show>
-    }
-}
-
-fn system_word(kind: &SystemKind) -> &'static str {
-    match kind {
-        SystemKind::Automatic { .. } => words::system_automatic(),
-        SystemKind::PlaneLinePoint { .. } => words::system_plane_line_point(),
-        SystemKind::BestFit { .. } => words::system_best_fit(),
-    }
-}
-
-/// Whether its σ₀ is a ratio: that of weights by standard errors; else it is a length.
-fn has_weights(kind: &SystemKind) -> bool {
-    matches!(kind, SystemKind::BestFit { given, .. } if given.iter().any(|g| g.sigma.is_some()))
-}
-
-/// What there is to say of a system, and what is wrong with it.
-fn said(system: Option<&MeasuredSystem>, unit: &str) -> (String, String) {
-    let Some(system) = system else { return (text::out_of_date().to_owned(), String::new()) };
-    if let Some(error) = &system.error {
-        return (String::new(), errors::sentence(error));
-    }
-    let sigma0 = system.sigma0.map(|s| words::fit_sigma(format::fixed(s, format::decimals_for(s)), unit));
-    (sigma0.unwrap_or_else(|| words::n_points(system.points.len())), String::new())
 }
 
 /// As colour fields have it.

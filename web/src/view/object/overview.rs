@@ -101,7 +101,7 @@ pub fn Overview() -> impl IntoView {
     });
     let host = NodeRef::<leptos::svg::Svg>::new();
     let choose = move |e: leptos::ev::MouseEvent| {
-        // Where the drawing is smaller than its box it stands in the middle of it.
+        // A drawing smaller than its box is centred.
         let Some(element) = host.get_untracked() else { return };
         let shown = element.get_bounding_client_rect();
         let scale = (shown.width() / WIDTH).min(shown.height() / HEIGHT).max(f64::MIN_POSITIVE);

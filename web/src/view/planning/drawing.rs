@@ -2,19 +2,20 @@
 
 use std::sync::Arc;
 
+use leptos::ev::PointerEvent;
 use leptos::prelude::*;
 use sightline::axes::ShownAxes;
-use sightline::plan::Prediction;
 use sightline::project::{DatumKind, Plan, Role};
+use sightline_plan::Prediction;
 
-use super::frame::{Frame, HEIGHT, Look, WIDTH};
+use super::frame::{DrawingFrame, HEIGHT, Look, WIDTH};
 use super::labels::{Sign, labels};
 use super::predicted;
 use crate::browser::event;
+use crate::document::Change;
 use crate::format;
 use crate::i18n::planning as words;
 use crate::store::Desk;
-use crate::store::document::Change;
 
 /// Length of a station's sign.
 const SIGN: f64 = 13.0;
@@ -51,7 +52,7 @@ pub fn Views() -> impl IntoView {
     }
 }
 
-/// What a view of the plan shows, by the letters of the axes to the right and upwards.
+/// Axes of a view of the plan: to the right and upwards.
 fn look_words(axes: ShownAxes, look: Look) -> String {
     let [x, y, z] = [0, 1, 2].map(|axis| axes.letter(axis));
     match look {
@@ -90,14 +91,109 @@ fn class_of(plan: &Plan, prediction: Option<&Prediction>, place: usize) -> &'sta
     }
 }
 
-/// What is being dragged.
+/// The dragged object.
 #[derive(Clone, PartialEq)]
 enum Dragged {
     Station(String),
     /// The view itself, from this place.
     Space([f64; 2]),
-    /// A region where nobody can stand, from this corner.
+    /// A region without access, from this corner.
     Region([f64; 2]),
+}
+
+/// Dragging in the drawing: stations, the 3-D view, or a new region without access.
+#[derive(Clone, Copy)]
+struct Dragging {
+    desk: Desk,
+    look: RwSignal<Look>,
+    frame: Memo<Option<DrawingFrame>>,
+    dragged: StoredValue<Option<Dragged>>,
+    /// Opposite corners of the region that is being drawn.
+    fence: RwSignal<Option<[[f64; 2]; 2]>>,
+}
+
+/// Place of a pointer in the drawing.
+fn place(e: &PointerEvent) -> [f64; 2] {
+    let [x, y] = event::share(e);
+    [x * WIDTH, y * HEIGHT]
+}
+
+impl Dragging {
+    fn new(desk: Desk, look: RwSignal<Look>, frame: Memo<Option<DrawingFrame>>) -> Self {
+        Self { desk, look, frame, dragged: StoredValue::new(None), fence: RwSignal::new(None) }
+    }
+
+    /// Whether a region is to be drawn.
+    fn fencing(self) -> bool {
+        self.desk.planning.fencing.get() && !matches!(self.look.get(), Look::Space(_))
+    }
+
+    fn down(self, e: &PointerEvent) {
+        let (Some(frame), Some(plan)) = (self.frame.get_untracked(), untrack(|| self.desk.plan())) else { return };
+        let at = place(e);
+        let near = || {
+            let far = |xyz: &[f64; 3]| {
+                let [x, y] = frame.at(xyz);
+                (x - at[0]).hypot(y - at[1])
+            };
+            let nearest = plan.stations.iter().min_by(|a, b| far(&a.position).total_cmp(&far(&b.position)));
+            let reach = if event::pointer(e).touch { 30.0 } else { 16.0 };
+            nearest.filter(|station| far(&station.position) < reach)
+        };
+        let what = if untrack(|| self.fencing()) {
+            Dragged::Region(at)
+        } else if let Some(station) = near() {
+            self.desk.planning.chosen.set(Some(station.id.clone()));
+            Dragged::Station(station.id.clone())
+        } else if matches!(self.look.get_untracked(), Look::Space(_)) {
+            Dragged::Space(at)
+        } else {
+            return;
+        };
+        event::capture(e);
+        e.prevent_default();
+        self.dragged.set_value(Some(what));
+    }
+
+    fn moved(self, e: &PointerEvent) {
+        let (Some(what), Some(frame)) = (self.dragged.get_value(), self.frame.get_untracked()) else { return };
+        let to = place(e);
+        match what {
+            Dragged::Station(id) => {
+                let Some(mut plan) = untrack(|| self.desk.shown_plan()) else { return };
+                if let Some(station) = plan.stations.iter_mut().find(|s| s.id == id) {
+                    station.position = frame.moved(&station.position, to);
+                    self.desk.planning.live.set(Some(Arc::new(plan)));
+                }
+            }
+            Dragged::Space(from) => {
+                if let Look::Space([turn, tilt]) = self.look.get_untracked() {
+                    let turned = [turn - (to[0] - from[0]) * 0.01, (tilt + (to[1] - from[1]) * 0.01).clamp(-1.5, 1.5)];
+                    self.look.set(Look::Space(turned));
+                }
+                self.dragged.set_value(Some(Dragged::Space(to)));
+            }
+            Dragged::Region(from) => self.fence.set(Some([from, to])),
+        }
+    }
+
+    fn up(self) {
+        let planning = self.desk.planning;
+        let what = self.dragged.get_value();
+        self.dragged.set_value(None);
+        if let Some(corners) = self.fence.get_untracked() {
+            self.fence.set(None);
+            planning.fencing.set(false);
+            let side = (corners[0][0] - corners[1][0]).abs().min((corners[0][1] - corners[1][1]).abs());
+            if let Some(region) = self.frame.get_untracked().and_then(|f| f.region(corners)).filter(|_| side > 3.0) {
+                self.desk.edit_plan(Change::PlanEdited, |plan| plan.forbidden.push(region));
+            }
+            return;
+        }
+        let (Some(Dragged::Station(id)), Some(live)) = (what, planning.live.get_untracked()) else { return };
+        let stations = live.stations.clone();
+        self.desk.edit_plan(Change::StationMoved(id), |plan| plan.stations = stations);
+    }
 }
 
 #[component]
@@ -107,77 +203,9 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
     // While a station is dragged the drawing stands still.
     let frame = Memo::new(move |_| {
         let look = look.get();
-        desk.document.with(|d| d.project.plan.as_deref().map(|plan| Frame::of(plan, look)))
+        desk.document.with(|d| d.project.plan.as_deref().map(|plan| DrawingFrame::of(plan, look)))
     });
-    let dragged = StoredValue::new(None::<Dragged>);
-    let fence = RwSignal::new(None::<[[f64; 2]; 2]>);
-    let place = move |e: &leptos::ev::PointerEvent| {
-        let [x, y] = event::share(e);
-        [x * WIDTH, y * HEIGHT]
-    };
-    let on_down = move |e: leptos::ev::PointerEvent| {
-        let (Some(frame), Some(plan)) = (frame.get_untracked(), untrack(|| desk.plan())) else { return };
-        let at = place(&e);
-        if planning.fencing.get_untracked() && !matches!(look.get_untracked(), Look::Space(_)) {
-            event::capture(&e);
-            e.prevent_default();
-            return dragged.set_value(Some(Dragged::Region(at)));
-        }
-        let far = |xyz: &[f64; 3]| {
-            let [x, y] = frame.at(xyz);
-            (x - at[0]).hypot(y - at[1])
-        };
-        let near = plan.stations.iter().min_by(|a, b| far(&a.position).total_cmp(&far(&b.position)));
-        let reach = if event::pointer(&e).touch { 30.0 } else { 16.0 };
-        let what = match near.filter(|s| far(&s.position) < reach) {
-            Some(station) => {
-                planning.chosen.set(Some(station.id.clone()));
-                Dragged::Station(station.id.clone())
-            }
-            None if matches!(look.get_untracked(), Look::Space(_)) => Dragged::Space(at),
-            None => return,
-        };
-        event::capture(&e);
-        e.prevent_default();
-        dragged.set_value(Some(what));
-    };
-    let on_move = move |e: leptos::ev::PointerEvent| {
-        let (Some(what), Some(frame)) = (dragged.get_value(), frame.get_untracked()) else { return };
-        let to = place(&e);
-        match what {
-            Dragged::Station(id) => {
-                let Some(mut plan) = untrack(|| desk.shown_plan()) else { return };
-                if let Some(station) = plan.stations.iter_mut().find(|s| s.id == id) {
-                    station.position = frame.moved(&station.position, to);
-                    planning.live.set(Some(Arc::new(plan)));
-                }
-            }
-            Dragged::Space(from) => {
-                if let Look::Space([turn, tilt]) = look.get_untracked() {
-                    let turned = [turn - (to[0] - from[0]) * 0.01, (tilt + (to[1] - from[1]) * 0.01).clamp(-1.5, 1.5)];
-                    look.set(Look::Space(turned));
-                }
-                dragged.set_value(Some(Dragged::Space(to)));
-            }
-            Dragged::Region(from) => fence.set(Some([from, to])),
-        }
-    };
-    let on_up = move |_: leptos::ev::PointerEvent| {
-        let what = dragged.get_value();
-        dragged.set_value(None);
-        if let Some(corners) = fence.get_untracked() {
-            fence.set(None);
-            planning.fencing.set(false);
-            let apart = (corners[0][0] - corners[1][0]).abs().min((corners[0][1] - corners[1][1]).abs());
-            if let Some(region) = frame.get_untracked().and_then(|f| f.region(corners)).filter(|_| apart > 3.0) {
-                desk.edit_plan(Change::PlanEdited, |plan| plan.forbidden.push(region));
-            }
-            return;
-        }
-        let (Some(Dragged::Station(id)), Some(live)) = (what, planning.live.get_untracked()) else { return };
-        let stations = live.stations.clone();
-        desk.edit_plan(Change::StationMoved(id), |plan| plan.stations = stations);
-    };
+    let dragging = Dragging::new(desk, look, frame);
     let object = move || {
         let frame = frame.get()?;
         desk.document.with(|d| d.project.plan.as_deref().map(|plan| object(&frame, plan)))
@@ -199,23 +227,23 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
         Some(rule(&frame, &unit, wanted))
     };
     let fenced = move || {
-        let [[x, y], [to_x, to_y]] = fence.get()?;
+        let [[x, y], [to_x, to_y]] = dragging.fence.get()?;
         Some(view! {
             <rect class="forbidden" x=x.min(to_x) y=y.min(to_y) width=(x - to_x).abs() height=(y - to_y).abs()></rect>
         })
     };
-    let fencing = move || planning.fencing.get() && !matches!(look.get(), Look::Space(_));
     view! {
-        <svg class="plan-view" class:fencing=fencing data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
+        <svg class="plan-view" class:fencing=move || dragging.fencing() data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
             aria-label=move || look_words(desk.axes(), look.get())
-            on:pointerdown=on_down on:pointermove=on_move on:pointerup=on_up on:pointercancel=on_up>
+            on:pointerdown=move |e| dragging.down(&e) on:pointermove=move |e| dragging.moved(&e)
+            on:pointerup=move |_| dragging.up() on:pointercancel=move |_| dragging.up()>
             {object}{points}{hints}{stations}{fenced}{rule}
         </svg>
     }
 }
 
-/// Faces, and where nobody can stand.
-fn object(frame: &Frame, plan: &Plan) -> impl IntoView + use<> {
+/// Faces, and regions without access.
+fn object(frame: &DrawingFrame, plan: &Plan) -> impl IntoView + use<> {
     let clip = |[x, y]: [f64; 2]| (x.clamp(-50.0, WIDTH + 50.0), y.clamp(-50.0, HEIGHT + 50.0));
     let faces = plan.faces.iter().map(|face| {
         let corner =
@@ -242,7 +270,7 @@ fn object(frame: &Frame, plan: &Plan) -> impl IntoView + use<> {
 }
 
 /// Points by what they reach, with their ellipses.
-fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl IntoView + use<> {
+fn points(frame: &DrawingFrame, plan: &Plan, prediction: Option<&Prediction>) -> impl IntoView + use<> {
     // As large as is wanted, with the wanted probability, is as large everywhere.
     let times = prediction.map_or(1.0, |p| p.factor) * WANTED / plan.wanted.precision;
     // One path for all of a colour: elements by the hundred cost more than what they show while a station is dragged.
@@ -280,7 +308,7 @@ fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl I
 }
 
 /// Places for the next photo.
-fn hints(frame: &Frame, desk: &Desk) -> impl IntoView + use<> {
+fn hints(frame: &DrawingFrame, desk: &Desk) -> impl IntoView + use<> {
     let suggested = desk.planning.suggested.get();
     let hints = suggested.iter().enumerate().map(|(k, s)| {
         let [x, y] = frame.at(&s.station.position);
@@ -295,7 +323,7 @@ fn hints(frame: &Frame, desk: &Desk) -> impl IntoView + use<> {
 
 /// Stations with their numbers, and what the chosen one sees: its picture's corners at the object's distance.
 fn stations(
-    frame: &Frame,
+    frame: &DrawingFrame,
     plan: &Plan,
     prediction: Option<&Prediction>,
     chosen: Option<&str>,
@@ -353,7 +381,7 @@ fn stations(
 }
 
 /// The scale of the drawing, and how much larger the ellipses are.
-fn rule(frame: &Frame, unit: &str, wanted: f64) -> impl IntoView + use<> {
+fn rule(frame: &DrawingFrame, unit: &str, wanted: f64) -> impl IntoView + use<> {
     let bar = round_length(110.0 / frame.scale);
     let long = bar * frame.scale;
     let times = WANTED / (wanted * frame.scale);

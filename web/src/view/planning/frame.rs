@@ -46,9 +46,9 @@ impl Look {
     }
 }
 
-/// How lengths become places in the drawing.
+/// Maps coordinates of the object to the drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct DrawingFrame {
     right: [f64; 3],
     up: [f64; 3],
     middle: [f64; 2],
@@ -60,7 +60,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-impl Frame {
+impl DrawingFrame {
     /// Everything of the plan in sight, with some room to move stations in.
     pub fn of(plan: &Plan, look: Look) -> Self {
         let [right, up] = look.axes();
@@ -103,7 +103,7 @@ impl Frame {
         })
     }
 
-    /// The box between two corners of the drawing, endless along its view; none where no axis is seen end on.
+    /// The box between two corners of the drawing, endless along its view; `None` if no axis is seen end on.
     pub fn region(&self, corners: [[f64; 2]; 2]) -> Option<Region> {
         let (right, up) = (axis_of(&self.right)?, axis_of(&self.up)?);
         let mut region = Region { low: [-ENDLESS; 3], high: [ENDLESS; 3] };
@@ -166,13 +166,13 @@ mod tests {
         let plan = planned();
         let from = plan.stations[0].position;
         for look in [Look::Top, Look::Front, Look::Side, Look::Space([0.6, 0.4])] {
-            let frame = Frame::of(&plan, look);
+            let frame = DrawingFrame::of(&plan, look);
             let to = frame.moved(&from, [200.0, 100.0]);
             let [x, y] = frame.at(&to);
             assert!((x - 200.0).abs() < 1.0 && (y - 100.0).abs() < 1.0, "{look:?}: {x} {y}");
         }
-        assert_eq!(Frame::of(&plan, Look::Top).moved(&from, [1.0, 2.0])[2], from[2]);
-        assert_eq!(Frame::of(&plan, Look::Side).moved(&from, [1.0, 2.0])[0], from[0]);
+        assert_eq!(DrawingFrame::of(&plan, Look::Top).moved(&from, [1.0, 2.0])[2], from[2]);
+        assert_eq!(DrawingFrame::of(&plan, Look::Side).moved(&from, [1.0, 2.0])[0], from[0]);
     }
 
     #[test]
@@ -183,20 +183,20 @@ mod tests {
 
     #[test]
     fn regions_are_endless_along_the_view() {
-        let frame = Frame::of(&planned(), Look::Front);
+        let frame = DrawingFrame::of(&planned(), Look::Front);
         let [low, high] = [[-100.0, 0.0, 200.0], [300.0, 0.0, 500.0]].map(|xyz| frame.at(&xyz));
         let region = frame.region([[high[0], low[1]], [low[0], high[1]]]).expect("a region");
         assert_eq!((region.low, region.high), ([-100.0, -ENDLESS, 200.0], [300.0, ENDLESS, 500.0]));
-        assert!(Frame::of(&planned(), Look::Space([0.6, 0.4])).region([[0.0; 2], [9.0; 2]]).is_none());
+        assert!(DrawingFrame::of(&planned(), Look::Space([0.6, 0.4])).region([[0.0; 2], [9.0; 2]]).is_none());
         // It does not make the drawing small.
         let mut plan = planned();
         plan.forbidden.push(region);
-        assert_eq!(Frame::of(&plan, Look::Front), frame);
+        assert_eq!(DrawingFrame::of(&plan, Look::Front), frame);
     }
 
     #[test]
     fn ellipses_are_seen_from_their_side() {
-        let frame = Frame::of(&planned(), Look::Front);
+        let frame = DrawingFrame::of(&planned(), Look::Front);
         let [large, small, angle] = frame.ellipse(&[9.0, 0.0, 0.0, 100.0, 0.0, 4.0]);
         assert!((large - 3.0).abs() < 1e-12 && (small - 2.0).abs() < 1e-12 && angle.abs() < 1e-9);
         // Along the diagonal from bottom left to top right.

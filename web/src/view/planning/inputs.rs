@@ -8,15 +8,15 @@ use super::camera::KnownCameras;
 use super::frame::ENDLESS;
 use super::object::{Control, Faces, Points, Targets, choose_points, numbers};
 use crate::browser::event;
+use crate::document::Change;
 use crate::edit::control::{Unit, has_lengths};
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
 use crate::i18n::{Text, errors, text};
 use crate::store::Desk;
-use crate::store::document::Change;
-use crate::view::field::Field;
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::field::Field;
+use crate::view::components::icon::{Glyph, Icon};
 
 /// The ways to begin.
 #[component]
@@ -137,7 +137,7 @@ fn FormNumber(
                 false => errors::refusal(&typed, text::not_a_length),
             });
         }
-        match sightline::plan::check_form(&trial) {
+        match sightline_plan::check_form(&trial) {
             Ok(()) => desk.edit_plan(Change::PlanEdited, |plan| plan::set_form(plan, trial)),
             Err(error) => desk.warn_here(move || errors::sentence(&error)),
         }
@@ -194,10 +194,26 @@ fn FormTick(label: Text, name: &'static str, read: fn(&Form) -> bool, write: fn(
     }
 }
 
+/// Everything that a plan is made of, except its stations.
 #[component]
 pub fn Inputs() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let with = move |read: fn(&Plan) -> bool| desk.document.with(|d| d.project.plan.as_deref().is_some_and(read));
+    view! {
+        <ObjectInputs/>
+        <Faces/>
+        <CameraInputs/>
+        <GoalInputs/>
+        <Regions/>
+        <div class="fields">
+            <button class="button" data-action="remove-plan" on:click=move |_| desk.remove_plan()>{words::remove_plan}</button>
+        </div>
+    }
+}
+
+/// The form of the object with its targets, or its points; the scale bar.
+#[component]
+fn ObjectInputs() -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let kind = Memo::new(move |_| {
         desk.document.with(|d| match d.project.plan.as_ref().and_then(|plan| plan.form) {
             Some(Form::Plane { .. }) => "plane",
@@ -207,12 +223,6 @@ pub fn Inputs() -> impl IntoView {
         })
     });
     let count = move || desk.document.with(|d| d.project.plan.as_ref().map_or(0, |plan| plan.points.len()));
-    let controlled = Memo::new(move |_| {
-        desk.document.with(|d| {
-            let control = |p: &sightline::project::Point| p.role == sightline::project::Role::Control;
-            d.project.plan.as_ref().is_some_and(|plan| plan.points.iter().any(control))
-        })
-    });
     let fields = move || {
         match kind.get() {
         "plane" => view! {
@@ -260,7 +270,15 @@ pub fn Inputs() -> impl IntoView {
                     fits
                 }/>
         </div>
-        <Faces/>
+    }
+}
+
+/// The camera with its lens, and the standard error of its observations.
+#[component]
+fn CameraInputs() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let calibrates = move || desk.document.with(|d| d.project.plan.as_deref().is_some_and(plan::calibrates));
+    view! {
         <h2 class="section-head"><span>{words::camera}</span></h2>
         <div class="fields">
             <KnownCameras/>
@@ -279,13 +297,28 @@ pub fn Inputs() -> impl IntoView {
             <Number label=words::sigma name="sigma" unit="px" read=|p| Some(p.sigma)
                 write=|p, v| { p.sigma = v.unwrap_or(0.0); p.sigma > 0.0 && p.sigma < 1e3 }/>
             <label class="tick">
-                <input type="checkbox" name="calibrates" prop:checked=move || with(plan::calibrates) on:change=move |e| {
+                <input type="checkbox" name="calibrates" prop:checked=calibrates on:change=move |e| {
                     let on = event::checked(&e);
                     desk.edit_plan(Change::PlanEdited, |p| plan::set_calibrates(p, on));
                 }/>
                 <span>{words::calibrates}</span>
             </label>
         </div>
+    }
+}
+
+/// Required accuracy, limits and datum of the plan.
+#[component]
+fn GoalInputs() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let with = move |read: fn(&Plan) -> bool| desk.document.with(|d| d.project.plan.as_deref().is_some_and(read));
+    let controlled = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let control = |p: &sightline::project::Point| p.role == sightline::project::Role::Control;
+            d.project.plan.as_ref().is_some_and(|plan| plan.points.iter().any(control))
+        })
+    });
+    view! {
         <h2 class="section-head"><span>{words::goal}</span></h2>
         <div class="fields">
             <Number label=words::precision name="precision" own_unit=true read=|p| Some(p.wanted.precision)
@@ -314,10 +347,6 @@ pub fn Inputs() -> impl IntoView {
                 </select>
             </label>
             <Control/>
-        </div>
-        <Regions/>
-        <div class="fields">
-            <button class="button" data-action="remove-plan" on:click=move |_| desk.remove_plan()>{words::remove_plan}</button>
         </div>
     }
 }
@@ -351,7 +380,7 @@ fn set_size_px(plan: &mut Plan, value: Option<f64>, side: fn(&mut Camera) -> &mu
     true
 }
 
-/// Places where nobody can stand.
+/// Regions without access.
 #[component]
 fn Regions() -> impl IntoView {
     let desk = expect_context::<Desk>();

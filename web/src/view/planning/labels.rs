@@ -12,9 +12,9 @@ pub struct Sign {
     pub id: String,
 }
 
-/// A text with the middle of its base line, and the place it belongs to where that is not beside it.
+/// Label of one or several stations: the text, the middle of its base line, and the end of its leader if it is not beside the station.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub struct StationLabel {
     pub at: [f64; 2],
     pub text: String,
     /// Places of the signs it is for, in the list that was given.
@@ -41,8 +41,8 @@ fn overlap(a: &Rect, b: &Rect) -> f64 {
     side(0) * side(1)
 }
 
-/// Numbers of stations, those that follow each other as a range.
-fn listed(ids: &[&str]) -> String {
+/// Numbers of stations; consecutive ones as a range.
+fn ranges(ids: &[&str]) -> String {
     let mut parts: Vec<(String, Option<(u64, u64)>)> = Vec::new();
     for id in ids {
         let number = id.parse::<u64>().ok();
@@ -66,7 +66,7 @@ fn listed(ids: &[&str]) -> String {
 }
 
 /// A label for every station, in the order in which they were given.
-pub fn labels(signs: &[Sign]) -> Vec<Label> {
+pub fn labels(signs: &[Sign]) -> Vec<StationLabel> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, sign) in signs.iter().enumerate() {
         let near = |group: &&mut Vec<usize>| {
@@ -84,8 +84,8 @@ pub fn labels(signs: &[Sign]) -> Vec<Label> {
 }
 
 /// The nearest place that is free, behind the station first; the one that covers least where none is.
-fn placed(signs: &[Sign], group: Vec<usize>, taken: &mut Vec<Rect>) -> Label {
-    let text = listed(&group.iter().map(|k| signs[*k].id.as_str()).collect::<Vec<_>>());
+fn placed(signs: &[Sign], group: Vec<usize>, taken: &mut Vec<Rect>) -> StationLabel {
+    let text = ranges(&group.iter().map(|k| signs[*k].id.as_str()).collect::<Vec<_>>());
     let (half, high) = (text.chars().count() as f64 * LETTER[0] / 2.0, LETTER[1]);
     let Sign { at: [x, y], back, .. } = &signs[group[0]];
     let mut best: Option<(f64, [f64; 2], Rect)> = None;
@@ -93,7 +93,7 @@ fn placed(signs: &[Sign], group: Vec<usize>, taken: &mut Vec<Rect>) -> Label {
         for turn in [0, 1, -1, 2, -2, 3, -3, 4] {
             let (s, c) = (f64::from(turn) * std::f64::consts::FRAC_PI_4).sin_cos();
             let (dx, dy) = (back[0] * c - back[1] * s, back[0] * s + back[1] * c);
-            // the middle of the text, as far off as its own half width asks
+            // the middle of the text, at a distance of half its width
             let (u, v) = (x + dx * (distance + (half - LETTER[0] / 2.0).max(0.0)), y + dy * distance);
             let rect = [u - half, v - high / 2.0, u + half, v + high / 2.0];
             let outside = rect[0] < 0.0 || rect[1] < 0.0 || rect[2] > WIDTH || rect[3] > HEIGHT;
@@ -111,7 +111,7 @@ fn placed(signs: &[Sign], group: Vec<usize>, taken: &mut Vec<Rect>) -> Label {
     let (_, [u, v], rect) = best.unwrap_or((0.0, [*x, *y], [*x, *y, *x, *y]));
     taken.push(rect);
     let far = (u - x).hypot(v - y) - (half - LETTER[0] / 2.0).max(0.0) > LED;
-    Label { at: [u, v + high / 2.0 - 1.5], text, of: group, leader: far.then_some([*x, *y]) }
+    StationLabel { at: [u, v + high / 2.0 - 1.5], text, of: group, leader: far.then_some([*x, *y]) }
 }
 
 #[cfg(test)]
@@ -137,8 +137,8 @@ mod tests {
         assert_eq!(all[0].of, [0, 2, 3]);
         let ids: Vec<String> = (1..=12).filter(|n| *n != 6).map(|n| n.to_string()).collect();
         let ids: Vec<&str> = ids.iter().map(String::as_str).collect();
-        assert_eq!(listed(&ids), "1–5, 7–12");
-        assert_eq!(listed(&["1", "3", "5", "7", "9", "a"]), "1, 3, 5, 7, …");
+        assert_eq!(ranges(&ids), "1–5, 7–12");
+        assert_eq!(ranges(&["1", "3", "5", "7", "9", "a"]), "1, 3, 5, 7, …");
     }
 
     /// Forty stations in two close rows: no number lies on another or on another station.
@@ -148,7 +148,7 @@ mod tests {
             (0..40).map(|k| sign(80.0 + 24.0 * f64::from(k % 20), 120.0 + 14.0 * f64::from(k / 20), k + 1)).collect();
         let all = labels(&signs);
         assert_eq!(all.len(), 40);
-        let rect = |label: &Label| {
+        let rect = |label: &StationLabel| {
             let (half, v) = (label.text.chars().count() as f64 * LETTER[0] / 2.0, label.at[1] + 1.5 - LETTER[1] / 2.0);
             [label.at[0] - half, v - LETTER[1] / 2.0, label.at[0] + half, v + LETTER[1] / 2.0]
         };

@@ -2,20 +2,20 @@
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
-use sightline::exchange::encoding;
 use sightline::project::PlanFace;
+use sightline_exchange::encoding;
 
 use crate::browser::{event, file};
+use crate::document::Change;
 use crate::edit::plan::{self, Facing};
 use crate::format;
 use crate::i18n::planning as words;
 use crate::i18n::{errors, text};
 use crate::store::Desk;
-use crate::store::document::Change;
-use crate::view::field::Field;
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::field::Field;
+use crate::view::components::icon::{Glyph, Icon};
 
-/// Most points that are shown as text.
+/// Maximum number of points that are shown as text.
 const SHOWN: usize = 1000;
 
 /// Opens the chooser for a list of points: a new plan of them, or other points of the present plan.
@@ -42,7 +42,7 @@ pub fn Points() -> impl IntoView {
         desk.document.with(|d| {
             let plan = d.project.plan.as_deref();
             plan.filter(|plan| plan.form.is_none() && plan.points.len() <= SHOWN)
-                .map_or(String::new(), |plan| plan::listed(plan, d.project.shown_axes()))
+                .map_or(String::new(), |plan| plan::points_text(plan, d.project.shown_axes()))
         })
     });
     view! {

@@ -1,18 +1,19 @@
-//! The shooting plan on paper: stations with places, aims and rolls, and a checklist in every language.
+//! The shooting plan on paper: stations with places, aims and rolls, what a second campaign detects, and a checklist in every language.
 
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::plan::Prediction;
+use sightline_plan::Prediction;
 
 use super::frame::rounded;
 use super::predicted;
+use super::repeated::on_paper;
 use crate::format;
 use crate::i18n::Language;
 use crate::i18n::planning::{Words, words};
 use crate::store::Desk;
 
-/// A phrase in every language, once where they say the same.
+/// A phrase in every language, without repetitions.
 fn in_all(say: fn(&dyn Words) -> &'static str) -> String {
     let mut phrases = Vec::new();
     for phrase in Language::ALL.map(|language| say(words(language))) {
@@ -26,7 +27,7 @@ fn in_all(say: fn(&dyn Words) -> &'static str) -> String {
 #[component]
 pub fn ShootingPlan() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    // Nobody prints while a station is dragged.
+    // Not computed while a station is dragged.
     let settled = Memo::new_with_compare(
         move |before: Option<&Option<Arc<Prediction>>>| match before {
             Some(before) if desk.planning.live.with(Option::is_some) => before.clone(),
@@ -43,9 +44,9 @@ pub fn ShootingPlan() -> impl IntoView {
         let prediction = settled.get();
         let row = |(k, station): (usize, sightline::project::PlanStation)| {
             let sight = prediction.as_ref().and_then(|p| p.stations.get(k));
-            let told = |place: [f64; 3]| desk.axes().shown(place).map(|x| format::compact(rounded(x)));
-            let place = told(station.position);
-            let aim = station.look_at.map_or(String::new(), |aim| told(aim).join(", "));
+            let formatted = |place: [f64; 3]| desk.axes().shown(place).map(|x| format::compact(rounded(x)));
+            let place = formatted(station.position);
+            let aim = station.look_at.map_or(String::new(), |aim| formatted(aim).join(", "));
             let distance = sight.and_then(|s| s.distance).map_or(String::new(), format::compact);
             let sees = sight.map_or(String::new(), |s| format::count(s.points.len()));
             let roll = format::compact(station.roll.to_degrees().round());
@@ -77,6 +78,7 @@ pub fn ShootingPlan() -> impl IntoView {
                 </tr></thead>
                 <tbody>{rows}</tbody>
             </table>
+            {move || settled.get().map(|prediction| on_paper(desk, &prediction, in_all))}
             <h2>{in_all(|w| w.checklist())}</h2>
             <ul>{checks.map(|check| view! { <li>"☐ " {in_all(check)}</li> }).collect_view()}</ul>
         </section>

@@ -5,14 +5,14 @@ use leptos::prelude::*;
 use super::frame::rounded;
 use super::predicted;
 use crate::browser::event;
+use crate::document::Change;
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
 use crate::i18n::{Text, errors, text};
 use crate::store::Desk;
-use crate::store::document::Change;
-use crate::view::field::Field;
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::field::Field;
+use crate::view::components::icon::{Glyph, Icon};
 
 /// The stations in a table: places can be typed, photos rolled, ticked off and taken away.
 #[component]
@@ -40,7 +40,7 @@ pub fn Stations() -> impl IntoView {
                 let name = desk.axes().letter(axis);
                 view! { <td><Field value commit attr:class="short" attr:aria-label=move || format!("{name} {}", id.get_value())/></td> }
             };
-            let sight = move |read: fn(&sightline::plan::StationSight) -> String| {
+            let sight = move |read: fn(&sightline_plan::StationSight) -> String| {
                 move || predicted(desk).and_then(|p| p.stations.get(k).map(read)).unwrap_or_default()
             };
             let taken = station.taken;
@@ -101,7 +101,7 @@ pub fn Stations() -> impl IntoView {
     }
 }
 
-/// What the chosen station is aimed at.
+/// Aim point of the selected station.
 #[component]
 fn Aim() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -138,7 +138,7 @@ fn Aim() -> impl IntoView {
     view! { <div>{fields}</div> }
 }
 
-/// What the chosen station does not see, and why.
+/// Points not visible from the selected station, with the reason.
 #[component]
 fn Unseen() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -163,7 +163,7 @@ fn Unseen() -> impl IntoView {
     view! { <div>{told}</div> }
 }
 
-/// What to look after on site.
+/// Checklist for the site.
 #[component]
 pub fn Checklist() -> impl IntoView {
     let checks: [Text; 5] =

@@ -3,30 +3,25 @@
 use leptos::prelude::*;
 use sightline::Error;
 use sightline::adjustment::Advice;
-use sightline::plan::{Criterion, Lacking, Prediction};
 use sightline::project::{Parameter, Wanted};
+use sightline_plan::{Criterion, Lacking, Prediction};
 
 use super::predicted;
 use crate::browser::event;
+use crate::document::Change;
 use crate::edit::plan;
 use crate::format;
-use crate::i18n::errors;
-use crate::i18n::planning as words;
+use crate::i18n::{errors, name_list, planning as words};
 use crate::store::Desk;
-use crate::store::document::Change;
-use crate::view::adjust::{parameter_name, parameter_unit};
-use crate::view::icon::{Glyph, Icon};
+use crate::view::components::icon::{Glyph, Icon};
+use crate::view::components::parameters::parameter_name;
+use crate::view::components::parameters::parameter_unit;
 
 fn unit(desk: Desk) -> String {
     desk.document.with(|d| d.project.unit.clone())
 }
 
-fn listed(names: &[String]) -> String {
-    let shown = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
-    if names.len() > 12 { format!("{shown} …") } else { shown }
-}
-
-/// A length with the digits that its size asks for.
+/// A length with digits according to its size.
 fn length(value: f64) -> String {
     format::fixed(value, format::decimals_for(value))
 }
@@ -35,20 +30,18 @@ fn lack_words(lack: &Lacking) -> String {
     match lack {
         Lacking::NoPhotos => words::lack_no_photos().to_owned(),
         Lacking::NoPoints => words::lack_no_points().to_owned(),
-        Lacking::Undetermined { points } => words::lack_undetermined(listed(points)),
-        Lacking::Beyond { points } => words::lack_beyond(listed(points)),
-        Lacking::Forbidden { stations } => words::lack_forbidden(listed(stations)),
+        Lacking::Undetermined { points } => words::lack_undetermined(name_list(points)),
+        Lacking::Beyond { points } => words::lack_beyond(name_list(points)),
+        Lacking::Forbidden { stations } => words::lack_forbidden(name_list(stations)),
         Lacking::Defect { defect } => errors::sentence(&Error::RankDefect { defects: vec![defect.clone()] }),
     }
 }
 
-/// What the network is weak in; what says nothing of a plan is left out.
+/// Weaknesses of the network that apply to a plan.
 fn advice_words(advice: &Advice) -> Option<String> {
     Some(match advice {
-        Advice::TwoRays { points } => words::two_rays(listed(points)),
-        Advice::NarrowIntersection { points } => {
-            words::narrow(listed(&points.iter().map(|(id, _)| id.clone()).collect::<Vec<_>>()))
-        }
+        Advice::TwoRays { points } => words::two_rays(name_list(points)),
+        Advice::NarrowIntersection { points } => words::narrow(name_list(points.iter().map(|(id, _)| id))),
         Advice::HighCorrelation { first, second, correlation, .. } => {
             words::correlated(first, second, format::fixed(*correlation, 2))
         }
@@ -200,7 +193,7 @@ pub fn Next() -> impl IntoView {
             <h2>{words::next_photo}</h2>
             <div class="row">
                 {options}
-                <button class="button" data-action="next" disabled=move || no_photos() || desk.job.with(Option::is_some)
+                <button class="button" data-action="next" disabled=move || no_photos() || desk.tasks.job.with(Option::is_some)
                     on:click=move |_| desk.suggest_photo()>{words::search}</button>
             </div>
             {found}
@@ -267,7 +260,7 @@ pub fn Compared() -> impl IntoView {
     }
 }
 
-/// What was predicted beside what the adjustment reached.
+/// Prediction compared with the result of the adjustment.
 #[component]
 pub fn Reached() -> impl IntoView {
     let desk = expect_context::<Desk>();

@@ -1,27 +1,15 @@
 //! Adjusted cameras: parameters with standard errors, and their correlations as a heat map.
 
+use crate::view::components::parameters::parameter_cells;
 use leptos::prelude::*;
 use sightline::adjustment::AdjustedCamera;
-use sightline::project::{Camera, Parameter};
+use sightline::project::Parameter;
 
 use super::read;
 use crate::format;
 use crate::i18n::{equipment, text};
 use crate::store::Desk;
-use crate::view::adjust::{parameter_name, parameter_unit};
-
-/// Value, sigma and unit of a parameter, with a power of ten where the value is small.
-pub fn parameter_cells(
-    camera: &Camera,
-    parameter: Parameter,
-    value: f64,
-    sigma: Option<f64>,
-) -> (String, String, String) {
-    let (value, sigma, exponent) = format::with_sigma(value, sigma);
-    let unit = parameter_unit(camera, parameter);
-    let unit = if exponent == 0 { unit } else { format!("{} {unit}", format::power(exponent)) };
-    (value, sigma, unit)
-}
+use crate::view::components::parameters::parameter_name;
 
 #[component]
 pub(super) fn Cameras() -> impl IntoView {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use sightline::comparison::{Alignment, CovarianceOf, Moved, ParameterChange};
 
-use super::cameras::parameter_cells;
-use super::units::length_unit;
 use crate::format;
-use crate::i18n::{comparing as words, text};
+use crate::i18n::{comparing as words, name_list, text};
 use crate::store::{Desk, Kind};
-use crate::view::adjust::parameter_name;
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::parameters::parameter_cells;
+use crate::view::components::parameters::parameter_name;
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::units::length_unit;
 
 /// In which system the two were compared.
 fn alignment_words(alignment: &Alignment) -> String {
@@ -42,7 +42,7 @@ fn ratio_words(covariance: CovarianceOf) -> &'static str {
 pub(super) fn Compared() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let all = desk.reports.compared;
-    // Which two results are compared, told apart by where they are.
+    // Which two results are compared, distinguished by their positions.
     let pair = Memo::new(move |_| {
         let present = desk.document.with(|d| d.current().map(Arc::as_ptr));
         let before = desk.result_before();
@@ -64,14 +64,10 @@ pub(super) fn Compared() -> impl IntoView {
                 let limit = format::fixed(found.limit, 2);
                 words::moved_by(format::count(found.points.len()), rms, unit, format::count(found.beyond), limit)
             });
-            let few = |ids: &[String]| {
-                let shown = ids.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
-                if ids.len() > 12 { format!("{shown} …") } else { shown }
-            };
-            let gone = (!found.gone.is_empty()).then(|| words::gone(found.gone.len(), few(&found.gone)));
-            let new = (!found.new.is_empty()).then(|| words::only_now(found.new.len(), few(&found.new)));
+            let gone = (!found.gone.is_empty()).then(|| words::gone(found.gone.len(), name_list(&found.gone)));
+            let new = (!found.new.is_empty()).then(|| words::only_now(found.new.len(), name_list(&found.new)));
             let unlike =
-                (!found.unlike_cameras.is_empty()).then(|| words::unlike_cameras(found.unlike_cameras.join(", ")));
+                (!found.unlike_cameras.is_empty()).then(|| words::unlike_cameras(name_list(&found.unlike_cameras)));
             Some(view! {
                 <p data-compared="figures">{words::figures(&sigma0[0], &sigma0[1], &redundancy[0], &redundancy[1])} " " {rms}</p>
                 <p class="note" data-compared="alignment">{alignment_words(&found.alignment)} " " {ratio_words(found.covariance)}</p>
@@ -157,7 +153,7 @@ fn Movements(
     }
 }
 
-/// What the interior orientations were and are.
+/// Previous and present interior orientations.
 #[component]
 fn Parameters(#[prop(into)] all: Signal<Vec<ParameterChange>>, limit: Signal<f64>) -> impl IntoView {
     let desk = expect_context::<Desk>();

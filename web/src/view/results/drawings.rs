@@ -1,10 +1,9 @@
 //! The plots of the result, as the report prints them, in the colours of the desk.
 
-use leptos::html::Div;
+use crate::view::components::drawing::{Drawing, place};
 use leptos::prelude::*;
-use sightline::report::plots::Plot;
 
-use crate::browser::{page, paper};
+use crate::browser::page;
 use crate::i18n::text;
 use crate::store::Desk;
 
@@ -33,36 +32,5 @@ pub(super) fn Drawings() -> impl IntoView {
             </nav>
             {move || plots().into_iter().map(|plot| view! { <Drawing plot/> }).collect_view()}
         </main>
-    }
-}
-
-/// Where a plot stands in the page.
-fn place(name: &str) -> String {
-    format!("plot-{name}")
-}
-
-/// A plot with its title, its sentence and its file.
-#[component]
-pub fn Drawing(plot: Plot) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let host = NodeRef::<Div>::new();
-    let svg = plot.svg.clone();
-    Effect::new(move || {
-        if let Some(host) = host.get() {
-            paper::draw(&host, sightline::report::plots::STYLE, &svg);
-        }
-    });
-    let (title, sentence, small, id) = (plot.title.clone(), plot.sentence.clone(), plot.small, place(&plot.name));
-    let kept = StoredValue::new(plot);
-    view! {
-        <figure class:small=small id=id tabindex="-1">
-            <figcaption>
-                <h2 class="section-head"><span>{title}</span>
-                    <button class="link" on:click=move |_| kept.with_value(|plot| desk.save_plot(plot))>{text::save_svg}</button>
-                </h2>
-                <p class="note">{sentence}</p>
-            </figcaption>
-            <div class="drawing" node_ref=host></div>
-        </figure>
     }
 }

@@ -1,39 +1,17 @@
 //! Observations of other kinds than image coordinates: control, projection centres, distances, camera parameters.
 
+use crate::view::components::given::{given_kind, given_name};
 use leptos::prelude::*;
 use sightline::adjustment::{Given, GivenObservation};
 
 use super::read;
-use super::units::{length_unit, unit_of};
 use crate::format;
 use crate::i18n::text;
-use crate::store::{Desk, axes_here};
-use crate::view::adjust::{parameter_name, parameter_unit};
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
-
-/// What was observed, by name: a point or photo with its axis, the ends of a distance, a parameter of a camera.
-pub fn given_name(what: &Given) -> String {
-    let axes = axes_here();
-    let axis = |axis: usize| axes.letter(axis);
-    match what {
-        Given::Control { point: id, axis: a } | Given::Position { photo: id, axis: a } => format!("{id} {}", axis(*a)),
-        Given::Distance { from, to } => format!("{from} – {to}"),
-        Given::Parameter { camera, photo, parameter } => {
-            let photo = photo.as_ref().map(|photo| format!(" · {photo}")).unwrap_or_default();
-            format!("{camera}{photo} {}", parameter_name(*parameter))
-        }
-    }
-}
-
-/// The kind in words.
-pub fn given_kind(what: &Given) -> &'static str {
-    match what {
-        Given::Control { .. } => text::control_coordinate(),
-        Given::Position { .. } => text::projection_centre(),
-        Given::Distance { .. } => text::distance(),
-        Given::Parameter { .. } => text::camera_parameter(),
-    }
-}
+use crate::store::Desk;
+use crate::view::components::parameters::parameter_unit;
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::units::length_unit;
+use crate::view::components::units::unit_of;
 
 #[component]
 pub(super) fn GivenTable() -> impl IntoView {

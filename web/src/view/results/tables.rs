@@ -8,13 +8,15 @@ use leptos::task::spawn_local;
 use sightline::adjustment::{AdjustedObservation, Adjustment};
 
 use super::read;
-use super::units::{common_unit, factors, length_unit};
 use crate::browser::page;
+use crate::document::AdjustmentResult;
 use crate::format;
 use crate::i18n::{language, text};
-use crate::store::document::Outcome;
 use crate::store::{Desk, Kind, Step};
-use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use crate::view::components::units::common_unit;
+use crate::view::components::units::factors;
+use crate::view::components::units::length_unit;
 
 /// Differences at the check points.
 #[component]
@@ -129,7 +131,7 @@ pub(super) fn largest_w(o: &AdjustedObservation) -> Option<f64> {
 
 /// A result: the same where it is the same object.
 #[derive(Clone)]
-struct Same(Arc<Outcome>);
+struct Same(Arc<AdjustmentResult>);
 
 impl PartialEq for Same {
     fn eq(&self, other: &Self) -> bool {

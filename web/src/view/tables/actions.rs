@@ -7,7 +7,7 @@ use sightline::project::Role;
 
 use super::grid::copied;
 use crate::browser::{event, page};
-use crate::edit::sheet::Table;
+use crate::document::Table;
 use crate::format;
 use crate::i18n::{Text, text, text::role_word};
 use crate::store::Desk;
@@ -107,7 +107,8 @@ fn Naming(naming: RwSignal<bool>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let (pattern, start) = (RwSignal::new("P##".to_owned()), RwSignal::new("1".to_owned()));
     let tolerance = RwSignal::new(String::new());
-    let given = move || desk.pasted.with(|p| p.as_ref().map(|p| p.table.clone().split().0.len())).filter(|n| *n > 0);
+    let given =
+        move || desk.intake.pasted.with(|p| p.as_ref().map(|p| p.table.clone().split().0.len())).filter(|n| *n > 0);
     view! {
         <form class="sheet-form" on:submit=move |e| {
             e.prevent_default();

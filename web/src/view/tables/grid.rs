@@ -3,22 +3,22 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
-use leptos::html::{Div, Input};
+use leptos::html::Input;
 use leptos::prelude::*;
-use sightline::exchange::quoted;
+use sightline_exchange::quoted;
 
 use super::{heading, plain_heading, shown, table_words};
+use crate::browser::event::Key;
 use crate::browser::{event, page};
-use crate::edit::cells::Cell;
+use crate::document::Table;
+use crate::edit::cells::CellEdit;
 use crate::edit::sheet::{Col, Sheet, Value};
 use crate::i18n::text;
 use crate::store::tables::Shared;
 use crate::store::{Desk, Marking};
+use crate::view::components::visible_rows::VisibleRows;
 
-/// Rows drawn beyond what is in sight.
-const MARGIN: usize = 10;
-
-/// What is being typed: row of the sheet, column, and what the field begins with where that is not what stands there.
+/// The cell being edited: row of the sheet, column, and what the field begins with where that is not what stands there.
 type Typing = Option<(u32, Col, Option<String>)>;
 
 /// Rows as a spreadsheet takes them: the marked ones, or all that are shown.
@@ -33,156 +33,212 @@ pub fn copied(desk: Desk, sheet: &Sheet, rows: &[u32]) -> String {
     lines.join("\n")
 }
 
-#[component]
-pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let frame = NodeRef::<Div>::new();
-    let (top, height, row_height) = (RwSignal::new(0.0_f64), RwSignal::new(600.0_f64), RwSignal::new(24.0_f64));
-    // The row with the focus, by its place among those shown.
-    let at = RwSignal::new(0_usize);
-    let typing = RwSignal::new(None as Typing);
-    let kind = move || sheet.with(|s| s.0.table.kind());
-    let columns = move || sheet.with(|s| s.0.columns());
-    let table = move || sheet.with(|s| s.0.table);
-    Effect::new(move |_| {
-        desk.tables.table.track();
-        at.set(0);
-        typing.set(None);
-        if let Some(element) = frame.get_untracked() {
-            element.set_scroll_top(0);
-            top.set(0.0);
-        }
-    });
-    let measure = move || {
-        if let Some(element) = frame.get_untracked() {
-            let (scroll, visible, row) = page::scroll_state(&element, "tbody tr.data");
-            top.set(scroll);
-            height.set(visible);
-            if let Some(row) = row {
-                row_height.set(row);
-            }
-        }
-    };
-    let window = Memo::new(move |_| {
-        let total = rows.with(|rows| rows.len());
-        let first = ((top.get() / row_height.get()) as usize).saturating_sub(MARGIN).min(total);
-        let last = (first + (height.get() / row_height.get()) as usize + 2 * MARGIN + 2).min(total);
-        (first, last)
-    });
-    let reveal = move |place: usize| {
-        measure();
-        let Some(element) = frame.get_untracked() else { return };
-        let (row, scroll, visible) = (row_height.get_untracked(), top.get_untracked(), height.get_untracked());
-        let (from, to) = (place as f64 * row, (place + 2) as f64 * row);
-        if from < scroll {
-            element.set_scroll_top(from as i32);
-        } else if to > scroll + visible {
-            element.set_scroll_top((to - visible).ceil() as i32);
-        }
-    };
-    let choose = move |place: usize, how: Marking| {
-        let Some(row) = rows.with_untracked(|rows| rows.get(place).copied()) else { return };
-        at.set(place);
-        sheet.with_untracked(|s| {
-            let keys = |rows: &Vec<u32>| rows.iter().map(|row| s.0.key(*row as usize)).collect::<Vec<_>>();
-            let order = if how == Marking::Range { rows.with_untracked(|rows| keys(rows)) } else { Vec::new() };
-            desk.choose_row(untrack(kind), &s.0.key(row as usize), how, &order);
+/// State of the grid: the row with the focus and the cell that is being typed into.
+#[derive(Clone, Copy)]
+struct GridState {
+    desk: Desk,
+    sheet: Memo<Shared>,
+    /// Rows of the sheet in the order in which they are shown.
+    rows: Memo<Arc<Vec<u32>>>,
+    scroll: VisibleRows,
+    /// The row with the focus, by its place among those shown.
+    at: RwSignal<usize>,
+    typing: RwSignal<Typing>,
+}
+
+impl GridState {
+    fn new(desk: Desk, sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> Self {
+        Self { desk, sheet, rows, scroll: VisibleRows::new(), at: RwSignal::new(0), typing: RwSignal::new(None) }
+    }
+
+    /// Begins at the top when another table is shown.
+    fn follow_table(self) {
+        Effect::new(move |_| {
+            self.desk.tables.table.track();
+            self.at.set(0);
+            self.typing.set(None);
+            self.scroll.scroll_to_top();
         });
-        reveal(place);
-    };
-    let col = move || columns().get(desk.tables.col.get()).copied();
-    let begin = move |with: Option<String>| {
-        let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) else { return false };
-        let Some(row) = rows.with_untracked(|rows| rows.get(at.get_untracked()).copied()) else { return false };
-        let flag = match sheet.with_untracked(|s| s.0.value(row as usize, col)) {
+    }
+
+    fn table(self) -> Table {
+        self.sheet.with_untracked(|s| s.0.table)
+    }
+
+    fn key_of(self, row: u32) -> String {
+        self.sheet.with_untracked(|s| s.0.key(row as usize))
+    }
+
+    /// Keys of all rows that are shown.
+    fn keys<All: FromIterator<String>>(self) -> All {
+        self.sheet.with_untracked(|s| {
+            self.rows.with_untracked(|rows| rows.iter().map(|row| s.0.key(*row as usize)).collect())
+        })
+    }
+
+    fn row_at(self, place: usize) -> Option<u32> {
+        self.rows.with_untracked(|rows| rows.get(place).copied())
+    }
+
+    /// Place of the last row.
+    fn last(self) -> usize {
+        self.rows.with_untracked(|rows| rows.len()).saturating_sub(1)
+    }
+
+    /// The column with the focus, if it can be typed into.
+    fn editable_column(self) -> Option<Col> {
+        let col = self.desk.tables.col.get_untracked();
+        let col = self.sheet.with_untracked(|s| s.0.columns().get(col).copied())?;
+        self.table().editable(col).then_some(col)
+    }
+
+    fn choose(self, place: usize, how: Marking) {
+        let Some(row) = self.row_at(place) else { return };
+        self.at.set(place);
+        let order: Vec<String> = if how == Marking::Range { self.keys() } else { Vec::new() };
+        self.desk.choose_row(self.table().kind(), &self.key_of(row), how, &order);
+        self.scroll.reveal(place);
+    }
+
+    /// Opens the field in the cell with the focus, with this text if any; a flag is switched at once. Whether the cell can be changed.
+    fn begin(self, with: Option<String>) -> bool {
+        let Some(col) = self.editable_column() else { return false };
+        let Some(row) = self.row_at(self.at.get_untracked()) else { return false };
+        let flag = match self.sheet.with_untracked(|s| s.0.value(row as usize, col)) {
             Value::Flag(on) => Some(on),
             Value::NotUsed => Some(true),
             _ => None,
         };
         if let Some(on) = flag {
-            let key = sheet.with_untracked(|s| s.0.key(row as usize));
-            desk.set_cell(untrack(table), Cell { key, col, typed: u8::from(!on).to_string() });
+            let cell = CellEdit { key: self.key_of(row), col, typed: u8::from(!on).to_string() };
+            self.desk.set_cell(self.table(), cell);
         } else {
-            typing.set(Some((row, col, with)));
+            self.typing.set(Some((row, col, with)));
         }
         true
-    };
-    let focus = move || {
-        if let Some(element) = frame.get_untracked() {
+    }
+
+    /// Takes what was typed; `down` goes on to the next row if it was accepted.
+    fn take(self, typed: String, down: bool) {
+        let Some((row, col, _)) = self.typing.get_untracked() else { return };
+        self.typing.set(None);
+        let place = self.at.get_untracked();
+        let accepted = self.desk.set_cell(self.table(), CellEdit { key: self.key_of(row), col, typed });
+        if let Some(element) = self.scroll.frame.get_untracked() {
             page::focus_in(&element, "table");
         }
-    };
-    let take = move |typed: String, down: bool| {
-        let Some((row, col, _)) = typing.get_untracked() else { return };
-        typing.set(None);
-        let key = sheet.with_untracked(|s| s.0.key(row as usize));
-        let place = at.get_untracked();
-        let done = desk.set_cell(untrack(table), Cell { key, col, typed });
-        focus();
-        if done && down {
-            choose((place + 1).min(rows.with_untracked(|r| r.len()).saturating_sub(1)), Marking::Only);
+        if accepted && down {
+            self.choose((place + 1).min(self.last()), Marking::Only);
         }
-    };
-    let mark_all = move || {
-        let all = sheet
-            .with_untracked(|s| rows.with_untracked(|rows| rows.iter().map(|row| s.0.key(*row as usize)).collect()));
-        desk.selection.update(|s| s.mark_all(untrack(kind), all));
-    };
-    let copy = move || desk.copy_text(sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
-    let fill = move || {
-        if let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) {
-            sheet.with_untracked(|s| rows.with_untracked(|rows| desk.fill_down(&s.0, rows, col)));
+    }
+
+    fn mark_all(self) {
+        let all = self.keys();
+        self.desk.selection.update(|s| s.mark_all(self.table().kind(), all));
+    }
+
+    fn copy(self) {
+        let (desk, rows) = (self.desk, self.rows);
+        desk.copy_text(self.sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
+    }
+
+    fn fill_down(self) {
+        if let Some(col) = self.editable_column() {
+            self.sheet.with_untracked(|s| self.rows.with_untracked(|rows| self.desk.fill_down(&s.0, rows, col)));
         }
-    };
-    let keydown = move |e: leptos::ev::KeyboardEvent| {
-        let key = event::key(&e);
+    }
+
+    fn key(self, e: &leptos::ev::KeyboardEvent) {
+        let key = event::key(e);
         if !key.on_table {
             return;
         }
-        let (place, last) = (at.get_untracked(), rows.with_untracked(|r| r.len()).saturating_sub(1));
-        let page = ((height.get_untracked() / row_height.get_untracked()) as usize).saturating_sub(2).max(1);
-        let how = if key.modifiers.shift { Marking::Range } else { Marking::Only };
-        let width = untrack(columns).len();
-        let to = match (key.key.as_str(), key.modifiers.control) {
-            ("ArrowDown", false) => Some(place + 1),
-            ("ArrowUp", false) => Some(place.saturating_sub(1)),
-            ("PageDown", false) => Some(place + page),
-            ("PageUp", false) => Some(place.saturating_sub(page)),
-            ("Home", true) => Some(0),
-            ("End", true) => Some(last),
-            _ => None,
-        };
-        if let Some(to) = to {
-            choose(to.min(last), how);
+        // The field takes what is pasted: the browser gives it to whatever has the focus.
+        if let ("v" | "V", true) = (key.key.as_str(), key.modifiers.control) {
+            return page::focus_id("pasted-cells");
         }
-        let verb = |verb: &dyn Fn()| {
-            verb();
-            true
-        };
-        let used = to.is_some()
-            || match (key.key.as_str(), key.modifiers.control) {
-                ("ArrowRight", false) => verb(&|| desk.tables.col.update(|c| *c = (*c + 1).min(width - 1))),
-                ("ArrowLeft", false) => verb(&|| desk.tables.col.update(|c| *c = c.saturating_sub(1))),
-                ("Enter" | "F2" | " ", false) => begin(None),
-                ("Delete", false) => verb(&|| desk.delete_rows(untrack(table))),
-                ("a" | "A", true) => verb(&mark_all),
-                ("c" | "C", true) => verb(&copy),
-                ("d" | "D", true) => verb(&fill),
-                // The field takes what is pasted: the browser gives it to whatever has the focus.
-                ("v" | "V", true) => {
-                    page::focus_id("pasted-cells");
-                    return;
-                }
-                // "?" lists the keys everywhere.
-                ("?", _) => false,
-                (typed, false) if typed.chars().count() == 1 && !key.modifiers.alt => begin(Some(typed.to_owned())),
-                _ => false,
-            };
-        if used {
+        if self.go(&key) || self.act(&key) {
             e.prevent_default();
             e.stop_propagation();
         }
+    }
+
+    /// Keys that go to another row.
+    fn go(self, key: &Key) -> bool {
+        let (place, page) = (self.at.get_untracked(), self.scroll.page());
+        let to = match (key.key.as_str(), key.modifiers.control) {
+            ("ArrowDown", false) => place + 1,
+            ("ArrowUp", false) => place.saturating_sub(1),
+            ("PageDown", false) => place + page,
+            ("PageUp", false) => place.saturating_sub(page),
+            ("Home", true) => 0,
+            ("End", true) => self.last(),
+            _ => return false,
+        };
+        self.choose(to.min(self.last()), if key.modifiers.shift { Marking::Range } else { Marking::Only });
+        true
+    }
+
+    /// All other keys of the grid.
+    fn act(self, key: &Key) -> bool {
+        let width = self.sheet.with_untracked(|s| s.0.columns().len());
+        let col = self.desk.tables.col;
+        match (key.key.as_str(), key.modifiers.control) {
+            ("ArrowRight", false) => col.update(|c| *c = (*c + 1).min(width - 1)),
+            ("ArrowLeft", false) => col.update(|c| *c = c.saturating_sub(1)),
+            ("Enter" | "F2" | " ", false) => return self.begin(None),
+            ("Delete", false) => self.desk.delete_rows(self.table()),
+            ("a" | "A", true) => self.mark_all(),
+            ("c" | "C", true) => self.copy(),
+            ("d" | "D", true) => self.fill_down(),
+            // "?" lists the keys everywhere.
+            ("?", _) => return false,
+            (typed, false) if typed.chars().count() == 1 && !key.modifiers.alt => {
+                return self.begin(Some(typed.to_owned()));
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+#[component]
+pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
+    let state = GridState::new(expect_context::<Desk>(), sheet, rows);
+    state.follow_table();
+    let scroll = state.scroll;
+    let window = Memo::new(move |_| scroll.range(rows.with(|rows| rows.len())));
+    // A row that shows the same after an edit stays as it is.
+    let drawn = move || {
+        let (first, last) = window.get();
+        let shared = sheet.get();
+        rows.with(|rows| {
+            let places = first..last.min(rows.len());
+            places.map(|k| (k, rows[k], fingerprint(&shared.0, rows[k] as usize), shared.clone())).collect::<Vec<_>>()
+        })
     };
+    view! {
+        <div class="scroll table-frame sheet-frame" node_ref=scroll.frame on:scroll=move |_| scroll.measure() on:pointerenter=move |_| scroll.measure()>
+            <table class="table" role="grid" tabindex="0" aria-multiselectable="true" aria-label=move || table_words(sheet.with(|s| s.0.table))
+                aria-rowcount=move || (rows.with(|rows| rows.len()) + 1).to_string() on:keydown=move |e| state.key(&e)>
+                <thead><tr><Headings sheet/></tr></thead>
+                <tbody>
+                    <tr class="gap" aria-hidden="true" style:height=move || scroll.gap(window.get().0)></tr>
+                    <For each=drawn key=|(k, row, fingerprint, _)| (*k, *row, *fingerprint)
+                        children=move |(k, row, _, shared)| view! {
+                            <Line k row shared state/>
+                        }/>
+                    <tr class="gap" aria-hidden="true" style:height=move || scroll.gap(rows.with(|rows| rows.len()).saturating_sub(window.get().1))></tr>
+                </tbody>
+            </table>
+        </div>
+    }
+}
+
+/// The headings; a click sorts by a column, the second turns the order round, the third ends sorting.
+#[component]
+fn Headings(sheet: Memo<Shared>) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let sort_by = move |col: Col| {
         desk.tables.sorting.update(|sorting| {
             *sorting = match *sorting {
@@ -192,11 +248,11 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
             };
         });
     };
-    let gap = move |rows: usize| format!("{}px", rows as f64 * row_height.get());
-    let heads = move || {
-        columns().iter().enumerate().map(|(k, &col)| {
+    move || {
+        let (table, columns) = sheet.with(|s| (s.0.table, s.0.columns()));
+        columns.iter().enumerate().map(|(k, &col)| {
             let by = move || desk.tables.sorting.get().filter(|(by, _)| *by == col).map(|(_, descending)| descending);
-            let (words, unit) = heading(desk, table(), col);
+            let (words, unit) = heading(desk, table, col);
             view! {
                 <th scope="col" class:left=is_words(col) class:sorted=move || by().is_some() class:at=move || desk.tables.col.get() == k
                     aria-sort=move || match by() {
@@ -211,32 +267,6 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
                 </th>
             }
         }).collect_view()
-    };
-    // A row that shows the same after an edit stays as it is.
-    let drawn = move || {
-        let (first, last) = window.get();
-        let shared = sheet.get();
-        rows.with(|rows| {
-            let places = first..last.min(rows.len());
-            places.map(|k| (k, rows[k], fingerprint(&shared.0, rows[k] as usize), shared.clone())).collect::<Vec<_>>()
-        })
-    };
-    view! {
-        <div class="scroll table-frame sheet-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
-            <table class="table" role="grid" tabindex="0" aria-multiselectable="true" aria-label=move || table_words(table())
-                aria-rowcount=move || (rows.with(|rows| rows.len()) + 1).to_string() on:keydown=keydown>
-                <thead><tr>{heads}</tr></thead>
-                <tbody>
-                    <tr class="gap" aria-hidden="true" style:height=move || gap(window.get().0)></tr>
-                    <For each=drawn key=|(k, row, fingerprint, _)| (*k, *row, *fingerprint)
-                        children=move |(k, row, _, shared)| view! {
-                            <Line k row shared at typing choose=Callback::new(move |(place, how)| choose(place, how))
-                                begin=Callback::new(move |()| { begin(None); }) take=Callback::new(move |(typed, down)| take(typed, down))/>
-                        }/>
-                    <tr class="gap" aria-hidden="true" style:height=move || gap(rows.with(|rows| rows.len()).saturating_sub(window.get().1))></tr>
-                </tbody>
-            </table>
-        </div>
     }
 }
 
@@ -269,17 +299,8 @@ fn is_words(col: Col) -> bool {
 
 /// One row.
 #[component]
-fn Line(
-    k: usize,
-    row: u32,
-    shared: Shared,
-    at: RwSignal<usize>,
-    typing: RwSignal<Typing>,
-    choose: Callback<(usize, Marking)>,
-    begin: Callback<()>,
-    take: Callback<(String, bool)>,
-) -> impl IntoView {
-    let desk = expect_context::<Desk>();
+fn Line(k: usize, row: u32, shared: Shared, state: GridState) -> impl IntoView {
+    let GridState { desk, at, typing, .. } = state;
     let sheet = &shared.0;
     let (table, key) = (sheet.table, StoredValue::new(sheet.key(row as usize)));
     let marked = Memo::new(move |_| desk.selection.with(|s| key.with_value(|key| s.is_marked(table.kind(), key))));
@@ -301,9 +322,9 @@ fn Line(
             };
             // A second click on the cell that has the focus types into it: with a finger there is no double click.
             let again = how == Marking::Only && focused.get_untracked() && marked.get_untracked() && e.detail() > 1;
-            choose.run((k, how));
+            state.choose(k, how);
             if again {
-                begin.run(());
+                state.begin(None);
             }
         };
         view! {
@@ -312,7 +333,7 @@ fn Line(
                 {move || match here.get() {
                     None => words.clone().into_any(),
                     Some(with) => view! {
-                        <TypingField value=with.unwrap_or_else(|| plain.get_value()) take cancel=Callback::new(move |()| typing.set(None))/>
+                        <TypingField value=with.unwrap_or_else(|| plain.get_value()) take=Callback::new(move |(typed, down)| state.take(typed, down)) cancel=Callback::new(move |()| typing.set(None))/>
                     }.into_any(),
                 }}
             </td>

@@ -4,35 +4,25 @@ mod actions;
 mod grid;
 mod paste;
 
+use crate::view::components::changes::table_words;
 use std::sync::Arc;
 
 use leptos::prelude::*;
 
 use super::identities::NamedPhoto;
-use super::results::units::length_unit;
-use super::shell::TitleBar;
 use crate::browser::event;
-use crate::edit::sheet::{Col, Sheet, Table, Value};
+use crate::document::Table;
+use crate::edit::sheet::{Col, Sheet, Value};
 use crate::format;
 use crate::i18n::{Text, text, text::role_word};
 use crate::store::Desk;
 use crate::store::tables::{Condition, Shared};
+use crate::view::components::title::TitleBar;
+use crate::view::components::units::length_unit;
 
 use actions::Actions;
 use grid::Grid;
 use paste::PastePanel;
-
-pub fn table_words(table: Table) -> &'static str {
-    match table {
-        Table::Photos => text::photos(),
-        Table::Cameras => text::cameras(),
-        Table::Points => text::points(),
-        Table::Observations => text::observations_table(),
-        Table::Distances => text::distances(),
-        Table::Control => text::control_points(),
-        Table::Identities => text::identities(),
-    }
-}
 
 /// A column's heading, and its unit where it has one.
 pub fn heading(desk: Desk, table: Table, col: Col) -> (String, String) {

@@ -17,7 +17,7 @@ fn a_project_without_a_current_converged_result_is_no_epoch_and_says_what_to_do(
     assert_eq!(reason(&document), Some(Reason::EpochNotAdjusted));
     let with = |document: &mut Document, adjustment| {
         let input = document.project.clone();
-        document.result = Some(Arc::new(Adjusted { oriented: input.clone(), input, adjustment }));
+        document.result = Some(Arc::new(AdjustmentResult { oriented: input.clone(), input, adjustment }));
     };
     with(&mut document, adjustment("iteration_limit"));
     assert!(matches!(

@@ -1,0 +1,178 @@
+//! Results of VisualSFM (`.nvm`, version 3): cameras, orientations, points with their measurements.
+//!
+//! | convention | here |
+//! | --- | --- |
+//! | pixel origin | the principal point: the centre of the picture, or cx, cy of `FixedK`; x right, y down |
+//! | axes | camera: x right, y down, z forwards |
+//! | rotation | quaternion w x y z, object to camera, and the projection centre |
+//! | distortion | measured to ideal: (1 + k ρ² / f²) m = f (X/Z, Y/Z) with ρ the distance of m from the principal point, pixels |
+//!
+//! Source: C. Wu, VisualSFM documentation ("NVM format"; `[Normalized radial distortion] = [radial distortion] * [focal length]²` in its camera lists), and
+//! COLMAP, `reconstruction_io.cc`, `ExportNVM`, which writes the coefficient of its opposite sense with the other sign. Blanks of a file name stand as
+//! quotation marks. The file has no size of the picture: see [`bal`](super::bal). The first model is read; further models, colours and the numbers
+//! of features are counted. Photos are named by their files, points by their places from 0.
+
+use std::collections::HashMap;
+
+use super::bal::{self, Words};
+use super::foreign::{Assumed, ForeignCamera, ForeignModel, Pose};
+use super::network::{self, ForeignNetwork};
+use sightline::error::Result;
+use sightline::project::{Camera, Interior, Parameter, Point};
+
+/// Whether a text is of this format.
+pub fn recognises(text: &str) -> bool {
+    text.trim_start().starts_with("NVM_V3")
+}
+
+/// The first line's calibration that all photos share: f, cx, cy.
+fn fixed(line: &str, words: &mut Words<'_>) -> Result<Option<[f64; 3]>> {
+    words.word("NVM_V3")?;
+    if line.split_whitespace().nth(1) != Some("FixedK") {
+        return Ok(None);
+    }
+    words.word("FixedK")?;
+    let [fx, cx, fy, cy] = words.numbers("fx, cx, fy, cy of FixedK")?;
+    // How measurements are scaled where they differ is nowhere stated.
+    if !(fx > 0.0 && (fx - fy).abs() <= 1e-9 * fx) {
+        return Err(words.wrong("fx above 0 and equal to fy", &format!("{fx} {fy}")));
+    }
+    Ok(Some([fx, cx, cy]))
+}
+
+/// A result.
+///
+/// # Errors
+/// [`Error::Invalid`](sightline::error::Error::Invalid) with the line and what was expected there.
+pub fn read(text: &str) -> Result<ForeignNetwork> {
+    let mut words = Words::new(text);
+    let mut network = ForeignNetwork::default();
+    let fixed = fixed(text.trim_start().lines().next().unwrap_or_default(), &mut words)?;
+    let count = words.whole("a number of cameras", usize::MAX)?;
+    let mut photos: Vec<(String, [f64; 2], Pose)> = Vec::new();
+    let mut named: HashMap<String, usize> = HashMap::new();
+    for _ in 0..count {
+        let file = words.word("a file name")?.replace('"', " ");
+        let [f, qw, qx, qy, qz, x, y, z, k, _] = words.numbers("f, quaternion, centre, distortion, 0 of a camera")?;
+        if !(f > 0.0) {
+            return Err(words.wrong("a focal length above 0", &f.to_string()));
+        }
+        let rotation = Pose::of_quaternion([qw, qx, qy, qz], [0.0; 3]);
+        let pose = rotation.and_then(|pose| Pose::at(pose.rotation, [x, y, z]));
+        let pose = pose.ok_or_else(|| words.wrong("a quaternion", &format!("{qw} {qx} {qy} {qz}")))?;
+        let file = file.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+        let times = named.entry(file.clone()).or_default();
+        *times += 1;
+        // Two folders may have a file of the same name.
+        let name = if *times == 1 { file } else { format!("{file} ({times})") };
+        photos.push((name, [f, k / (f * f)], pose));
+    }
+    let points = words.whole("a number of points", usize::MAX)?;
+    let mut measured = Vec::new();
+    for k in 0..points {
+        let xyz = words.numbers("X, Y, Z of a point")?;
+        words.numbers::<3>("the colour of a point")?;
+        network.points.push(Point { id: k.to_string(), xyz: Some(xyz), ..Point::default() });
+        for _ in 0..words.whole("a number of measurements", usize::MAX)? {
+            let photo = words.whole(&format!("a photo from 0, fewer than {count}"), count)?;
+            words.whole("the number of a feature", usize::MAX)?;
+            measured.push((photo, k, words.numbers::<2>("the measurement x, y")?));
+        }
+    }
+    let further = words.rest().first().is_some_and(|word| word.parse::<usize>().is_ok_and(|count| count > 0));
+    network.notes.ignore("further models", usize::from(further));
+    network.notes.ignore("colours of points", points);
+    let (size, centre) = match fixed {
+        Some([_, cx, cy]) => {
+            network.notes.assume(Assumed::ImageSizeFromPrincipalPoint);
+            let side = |c: f64| (2.0 * c).round().clamp(1.0, 1e6) as u32;
+            ([side(cx), side(cy)], [cx, cy])
+        }
+        None => {
+            network.notes.assume(Assumed::ImageSizeFromMeasurements);
+            let size = bal::size(measured.iter().map(|(.., pixel)| *pixel));
+            (size, size.map(|side| f64::from(side) / 2.0))
+        }
+    };
+    for (name, [f, k], pose) in &photos {
+        let f = fixed.map_or(*f, |fixed| fixed[0]);
+        let camera = camera(&mut network, [f, *k], size, centre);
+        network.photos.push(network::photo(name.clone(), camera, name, Some(*pose)));
+    }
+    for (photo, point, [x, y]) in measured {
+        let pixel = [centre[0] + x, centre[1] + y];
+        network.observations.push(network::observation(&photos[photo].0, &point.to_string(), pixel));
+    }
+    network.notes.assume(Assumed::SigmaOnePixel);
+    Ok(network)
+}
+
+/// The camera of these parameters: that of the photo before where it is the same, else a new one.
+fn camera(network: &mut ForeignNetwork, [f, k]: [f64; 2], size: [u32; 2], centre: [f64; 2]) -> String {
+    let number = (network.cameras.len() + 1).to_string();
+    let mut camera = Camera::new(number.clone(), size[0], size[1], Interior::brown(f));
+    camera.interior.set(Parameter::K1, k);
+    // Our y of a photo points up, and the centre is the picture's.
+    camera.interior.set(Parameter::X0, centre[0] - f64::from(size[0]) / 2.0);
+    camera.interior.set(Parameter::Y0, f64::from(size[1]) / 2.0 - centre[1]);
+    if let Some(last) = network.cameras.last()
+        && matches!(&last.model, ForeignModel::Correction(known, None) if known.interior == camera.interior)
+    {
+        return last.id.clone();
+    }
+    let model = ForeignModel::Correction(camera, None);
+    network.cameras.push(ForeignCamera { id: number.clone(), size, model, pose: None, region: None, covariance: None });
+    number
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+    use sightline::camera::pixel_from_camera_point;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    const FILE: &str = "NVM_V3 \n\n2\n\
+        a\"b.jpg\t1000 1 0 0 0 0 0 -5 0.1 0\n\
+        dir/c.jpg 1000 0 1 0 0 1 2 3 0.1 0\n\n\
+        1\n0.5 -1 0 255 0 0 2 0 7 99.019607 -198.039215 1 3 -320.5 200.25\n\n0\n";
+
+    /// Computed by hand: photo a is at (0, 0, -5) and looks along z. X = (0.5, -1, 0) has X/Z = 0.1, Y/Z = -0.2, so (1 + k ρ²/f²) m = (100, -200). The ray's ρ²/f² is s² 0.05
+    /// with m = s (100, -200): (1 + 0.1 · 0.05 s²) s = 1 at s = 0.9950735…
+    #[test]
+    fn a_point_by_hand_has_its_measurement() {
+        let network = read(FILE).unwrap();
+        assert_eq!(network.photos[0].id, "a b.jpg");
+        assert_eq!(network.photos[1].position, Some([1.0, 2.0, 3.0]));
+        assert_eq!((network.cameras.len(), network.cameras[0].size), (1, [642, 402]));
+        let ForeignModel::Correction(camera, None) = &network.cameras[0].model else { panic!("a camera of ours") };
+        // Our camera looks along -z with y up.
+        let pixel = pixel_from_camera_point(camera, Vector3::new(0.5, 1.0, -5.0)).unwrap();
+        let s = 0.995_073_533_543_6;
+        assert!(
+            (pixel[0] - (321.0 + 100.0 * s)).abs() < 1e-6 && (pixel[1] - (201.0 - 200.0 * s)).abs() < 1e-6,
+            "{pixel:?}"
+        );
+        let seen = &network.observations[0];
+        assert!((seen.u - (321.0 + 99.019_607)).abs() < 1e-12 && (seen.v - (201.0 - 198.039_215)).abs() < 1e-12);
+        // Rotated by half a turn about x: y down becomes y up, and it looks along -z.
+        let photo = &network.photos[1];
+        assert!(photo.rotation.unwrap().iter().all(|angle| angle.abs() < 1e-12), "{:?}", photo.rotation);
+    }
+
+    #[test]
+    fn damage_names_its_line() {
+        for (from, to, line) in [
+            ("1000 1 0 0 0", "-1 1 0 0 0", 4),
+            ("2 0 7", "2 9 7", 8),
+            ("1 3 -320.5", "1 x -320.5", 8),
+            ("NVM_V3 ", "NVM_V3 FixedK 900 320 910 240", 1),
+        ] {
+            let error = read(&FILE.replace(from, to)).unwrap_err();
+            assert_eq!(error.place().line, Some(line), "{to}: {error}");
+        }
+        let fixed = read(&FILE.replace("NVM_V3 ", "NVM_V3 FixedK 900 320 900 240")).unwrap();
+        assert_eq!(fixed.cameras[0].size, [640, 480]);
+    }
+}

@@ -1,0 +1,88 @@
+//! Descriptions of changes.
+
+use super::parameters::model_name as model_words;
+use crate::document::Change;
+use crate::document::Table;
+use crate::i18n::{equipment, grids, lists, modelling, mounted, object as words, planning, text};
+
+pub fn change_words(change: &Change) -> String {
+    match change {
+        Change::PhotosAdded(n) => text::change_photos_added(n),
+        Change::ShotsSwapped(n) => text::change_shots_swapped(n),
+        Change::PhotoRemoved(id) => text::change_photo_removed(id),
+        Change::PhotoSwitched(id) => text::change_photo_switched(id),
+        Change::CameraEdited(id) => text::change_camera_edited(id),
+        Change::CameraAssigned { photos, camera } => text::change_camera_assigned(photos, camera),
+        Change::TargetsDetected => text::change_detected().to_owned(),
+        Change::TargetMeasured(photo) => text::change_measured(photo),
+        Change::Named(point) => text::change_named(point),
+        Change::Renamed { from, to } => text::change_renamed(from, to),
+        Change::Moved { point, photo } => text::change_moved(point, photo),
+        Change::ObservationRemoved { point, photo } => text::change_observation_removed(point, photo),
+        Change::ObservationSwitched { point, photo } => text::change_observation_switched(point, photo),
+        Change::PointRemoved(point) => text::change_point_removed(point),
+        Change::MarksTaken(n) => text::change_marks_taken(n),
+        Change::Matched(n) => text::change_matched(n),
+        Change::ControlTaken(n) => text::change_control_taken(n),
+        Change::RoleSet(point) => text::change_role(point),
+        Change::ControlEdited(point) => text::change_control_edited(point),
+        Change::CentreObserved(photo) => text::change_centre_observed(photo),
+        Change::CentreForgotten(photo) => text::change_centre_forgotten(photo),
+        Change::DistanceEdited { from, to } => text::change_distance_edited(from, to),
+        Change::DistanceAdded { from, to } => text::change_distance_added(from, to),
+        Change::DistanceRemoved { from, to } => text::change_distance_removed(from, to),
+        Change::DistancesTaken(n) => lists::change_distances(n),
+        Change::DatumChosen => text::change_datum().to_owned(),
+        Change::AxesExchanged => text::change_axes().to_owned(),
+        Change::ParametersChosen(camera) => text::change_parameters(camera),
+        Change::ModelChosen { camera, model } => modelling::change_model(camera, model_words(model)),
+        Change::RigEdited => mounted::change_rig().to_owned(),
+        Change::DotsNamed(n) => grids::change_dots(n),
+        Change::OptionsChosen => text::change_options().to_owned(),
+        Change::Adjusted => text::change_adjusted().to_owned(),
+        Change::AxesSet => lists::change_shown_axes().to_owned(),
+        Change::UnitSet => text::change_unit().to_owned(),
+        Change::UnitConverted => text::change_unit_converted().to_owned(),
+        Change::PhotosAttached(n) => text::change_photos_attached(n),
+        Change::PhotosReplaced(n) => text::change_photos_replaced(n),
+        Change::ReportEdited => text::change_report().to_owned(),
+        Change::FeatureMade(id) => words::change_made(id),
+        Change::FeatureRemoved(id) => words::change_removed(id),
+        Change::SystemScaled(id) => words::change_system_scaled(id),
+        Change::FeatureRenamed { from, to } => words::change_renamed(from, to),
+        Change::LayerColoured(id) => words::change_layer(id),
+        Change::LinesDrawn => words::change_lines().to_owned(),
+        Change::PlanEdited => planning::change_plan().to_owned(),
+        Change::StationMoved(id) => planning::change_station_moved(id),
+        Change::StationAdded(id) => planning::change_station_added(id),
+        Change::StationRemoved(id) => planning::change_station_removed(id),
+        Change::PlanMade(n) => planning::change_plan_made(n),
+        Change::Opened => text::change_opened().to_owned(),
+        Change::CellsEdited { table, cells } => text::change_cells(cells, table_words(*table)),
+        Change::RowsSwitched { table, rows, enabled: false } => text::change_rows_excluded(rows, table_words(*table)),
+        Change::RowsSwitched { table, rows, .. } => text::change_rows_restored(rows, table_words(*table)),
+        Change::RowsDeleted { table, rows } => text::change_rows_deleted(rows, table_words(*table)),
+        Change::RolesSet { points, role } => text::change_roles(points, text::role_word(*role)),
+        Change::PointsMerged { points, into } => text::change_merged(points, into),
+        Change::PointSplit { point, new } => text::change_split(point, new),
+        Change::PointsRenamed(n) => text::change_points_renamed(n),
+        Change::CamerasJoined { cameras, into } => text::change_cameras_joined(cameras, into),
+        Change::QuestionAnswered { photo } => text::change_question(photo),
+        Change::CalibrationTaken { camera } => equipment::change_calibration(camera),
+        Change::BarsTaken(n) => equipment::change_bars(n),
+        Change::ColoursTaken { camera } => text::change_colours_taken(camera),
+        Change::ColoursForgotten { camera } => text::change_colours_forgotten(camera),
+    }
+}
+
+pub fn table_words(table: Table) -> &'static str {
+    match table {
+        Table::Photos => text::photos(),
+        Table::Cameras => text::cameras(),
+        Table::Points => text::points(),
+        Table::Observations => text::observations_table(),
+        Table::Distances => text::distances(),
+        Table::Control => text::control_points(),
+        Table::Identities => text::identities(),
+    }
+}
