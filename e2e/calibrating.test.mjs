@@ -61,6 +61,33 @@ test('a path of its own leads from the start page to coverage, models and halves
   }
 });
 
+test('a project that is begun before the storage has answered is kept, and another opens without a question', { timeout: 600_000 }, async () => {
+  const { page, context, errors, url, close } = await open({ width: 1366, height: 768 });
+  try {
+    // A slow disk: the script of the storage comes after two clicks.
+    let release;
+    const clicked = new Promise((resolve) => (release = resolve));
+    await context.route('**/storage*.js', async (route) => {
+      await clicked;
+      await route.continue();
+    });
+    await page.goto('about:blank');
+    await page.goto(url);
+    await page.click('[data-open=calibrate]');
+    await page.waitForSelector('.calibrating [data-part=files]');
+    await page.click('.mark');
+    const opened = sample(page);
+    await page.waitForTimeout(500);
+    release();
+    await opened;
+    await page.click('.mark');
+    await page.waitForFunction(() => document.querySelectorAll('tr[data-project]').length === 2, undefined, { timeout: 30_000 });
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
 test('photos taken together are paired, kept, and undone', { timeout: 600_000 }, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {

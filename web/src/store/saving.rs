@@ -5,11 +5,13 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use leptos::prelude::*;
+use leptos::task::spawn_local;
 use sightline::detection::Detection;
 use sightline::project::Project;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::background::Stop;
+use super::persistence::Kept;
 use super::pool::{Failure, TaskOutcome};
 use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
@@ -38,6 +40,10 @@ pub fn is_text(name: &str) -> bool {
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     matches!(ending.as_str(), "txt" | "csv" | "tsv" | "dat")
 }
+
+/// How often, and at what distance in milliseconds, it is looked whether the storage has answered; then it counts as missing.
+const STORAGE_ROUNDS: usize = 200;
+const STORAGE_MS: i32 = 50;
 
 impl Desk {
     /// Writes the project file and hands it over; the photos go along on request.
@@ -97,11 +103,29 @@ impl Desk {
 
     /// Replaces the open project by another; asks first if there are unsaved changes.
     pub(super) fn over_unsaved(self, then: impl Fn() + 'static) {
+        let then: Rc<dyn Fn()> = Rc::new(then);
+        let is_starting = move || self.persistence.kept.with_untracked(|kept| *kept == Kept::Starting);
+        if !is_starting() || !untrack(|| self.unsaved_work()) {
+            return self.over_unkept(then);
+        }
+        // Whether the open project is lost by opening another is known when the storage has answered.
+        spawn_local(async move {
+            for _ in 0..STORAGE_ROUNDS {
+                if !is_starting() {
+                    break;
+                }
+                page::pause(STORAGE_MS).await;
+            }
+            self.over_unkept(then);
+        });
+    }
+
+    /// The same, once it is known whether the open project is kept.
+    fn over_unkept(self, then: Rc<dyn Fn()>) {
         // What is kept is not lost by opening another.
         if self.keeps() || !untrack(|| self.unsaved_work()) {
             return then();
         }
-        let then: Rc<dyn Fn()> = Rc::new(then);
         let save: Rc<dyn Fn()> = {
             let then = then.clone();
             Rc::new(move || self.save_then(true, then.clone()))
