@@ -55,6 +55,16 @@ test('a path of its own leads from the start page to coverage, models and halves
     await page.waitForSelector('[data-result=cross-validation]', { timeout: 120_000 });
     assert.match(await page.getAttribute('[data-result=cross-validation]', 'data-verdict'), /agrees|larger_noise|wrong_model/);
     assert.equal(await page.locator('[data-result=cross-validation] .map').count(), 2);
+    // How well the adjusted camera predicts: map, by distance, residuals by column and row.
+    if (!(await page.locator('[data-action=judge-camera]').count())) await page.click('[data-action=adjust]');
+    await page.waitForSelector('[data-action=judge-camera]', { timeout: 120_000 });
+    if (!(await page.evaluate(() => location.hash === '#calibrate'))) await page.evaluate(() => (location.hash = '#calibrate'));
+    await page.click('[data-action=judge-camera]');
+    await page.waitForSelector('[data-result=predicted-uncertainty]', { timeout: 120_000 });
+    assert.match(await page.textContent('[data-result=predicted-uncertainty] [role=status]'), /predicted to [\d.]+ px/);
+    for (const plot of ['distance', 'columns', 'rows']) assert.equal(await page.locator(`[data-plot=${plot}] svg`).count(), 1, plot);
+    assert.equal(await page.locator('[data-plot=distance] :is(.line-a, .line-b)[d*=L]').count(), 2);
+    assert.ok((await page.locator('[data-plot=columns] .bar-a').count()) >= 8);
     assert.deepEqual(errors, []);
   } finally {
     await close();

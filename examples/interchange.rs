@@ -8,6 +8,7 @@
 //! interchange export FORMAT PROJECT FOLDER   a document as files
 //! interchange project PROJECT                pixels of all points in all photos
 //! interchange uncertainty PROJECT OPTIONS    projection uncertainty of an adjustment of the project
+//! interchange distances PROJECT OPTIONS      the same by distance
 //! ```
 
 use std::error::Error;
@@ -16,7 +17,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 use sightline::adjust::adjust;
 use sightline::adjustment::AdjustOptions;
-use sightline::calibration::{UncertaintyOptions, projection_uncertainty};
+use sightline::calibration::{DistanceOptions, UncertaintyOptions, projection_uncertainty, uncertainty_over_distance};
 use sightline::camera::pixel_from_camera_point;
 use sightline::project::{Camera, Project};
 use sightline::rotation::object_to_camera;
@@ -68,6 +69,12 @@ fn main() -> Outcome {
             let (project, options) = (json::<Project>(project)?, json::<UncertaintyOptions>(options)?);
             let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true)?;
             let found = projection_uncertainty(&project, &adjustment, &options)?;
+            serde_json::json!({ "sigma0": adjustment.sigma0, "uncertainty": found })
+        }
+        ["distances", project, options] => {
+            let (project, options) = (json::<Project>(project)?, json::<DistanceOptions>(options)?);
+            let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true)?;
+            let found = uncertainty_over_distance(&project, &adjustment, &options)?;
             serde_json::json!({ "sigma0": adjustment.sigma0, "uncertainty": found })
         }
         ["project", project] => serde_json::to_value(projected(&json::<Project>(project)?))?,

@@ -6,9 +6,11 @@
 //!
 //! Source: D. Kogan, mrcal, "Projection uncertainty" and "Differencing", <https://mrcal.secretsauce.net>.
 
+mod bands;
 mod conversion;
 mod coverage;
 mod difference;
+mod distance;
 mod models;
 mod motion;
 mod places;
@@ -19,9 +21,11 @@ mod validation;
 
 use serde::{Deserialize, Serialize};
 
+pub use bands::{BandOptions, ResidualBand, ResidualBands, residual_bands};
 pub use conversion::{ModelConversion, convert_camera};
 pub use coverage::{Coverage, CoverageLack, coverage};
 pub use difference::{CameraDifference, DifferenceOptions, compare_cameras};
+pub use distance::{DistanceOptions, DistanceUncertainty, PlaceOverDistance, uncertainty_over_distance};
 pub use models::{ComparedModel, ModelVerdict, ModelsOptions, compare_models};
 pub use proposal::{diagonal_field, proposed_models};
 pub use uncertainty::{ProjectionUncertainty, UncertaintyOptions, WorstPlace, projection_uncertainty};

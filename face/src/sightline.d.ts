@@ -2015,6 +2015,68 @@ export interface ProjectionUncertainty {
   median: number | null;
 }
 
+/** Options of `uncertaintyOverDistance`. */
+export interface DistanceOptions {
+  /** May be left out where the adjustment has one camera. */
+  camera?: string | null;
+  /** The photo, for a camera with per_photo. */
+  photo?: string | null;
+  /** Distances in the project's unit; null: 33 in equal ratios, from a fifth of the nearest to five times the farthest distance between a photo and a point measured in it. */
+  distances?: number[] | null;
+  /** Pixels; null: the image centre and the four points at nine tenths of the way from it to the corners. */
+  places?: [number, number][] | null;
+}
+
+/** Result of `uncertaintyOverDistance`; the mean motion of the photos relative to the object is removed (`reference: "photos"`). */
+export interface DistanceUncertainty {
+  camera: string;
+  photo?: string;
+  /** Parameters included; held parameters count as exact. */
+  parameters: Parameter[];
+  distances: number[];
+  /** Smallest and largest distance between a photo of the camera and a point measured in it. */
+  measured: [number, number];
+  places: {
+    u: number;
+    v: number;
+    /** Per distance: standard error in the worst direction, pixels; null if the model gives no ray. */
+    sigma: (number | null)[];
+    /** The same of a direction. */
+    infinity: number | null;
+  }[];
+}
+
+/** Options of `residualBands`. */
+export interface BandOptions {
+  /** May be left out where the adjustment has one camera. */
+  camera?: string | null;
+  /** The photo, for a camera with per_photo. */
+  photo?: string | null;
+  /** Bands across and down: 16 by default. */
+  bands?: number;
+}
+
+/** Residuals between two columns or rows of the image. */
+export interface ResidualBand {
+  /** Pixels. */
+  from: number;
+  to: number;
+  /** Measurements that took part. */
+  count: number;
+  /** Root mean square of a residual, pixels; null without measurements. */
+  rms: number | null;
+  /** What the standard errors of the measurements let expect, pixels; null without redundancy numbers. */
+  expected: number | null;
+}
+
+/** Result of `residualBands`. */
+export interface ResidualBands {
+  camera: string;
+  photo?: string;
+  columns: ResidualBand[];
+  rows: ResidualBand[];
+}
+
 /** Options of `compareCameras`. */
 export interface DifferenceOptions {
   grid?: [number, number];

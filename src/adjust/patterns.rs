@@ -23,6 +23,7 @@ use crate::adjustment::{AdjustOptions, Advice, PatternKind, Remedy, ResidualPatt
 use crate::project::{Camera, CameraModel, Parameter};
 use crate::statistics::fisher::Fisher;
 
+use alone::Odd;
 use basis::Basis;
 use gram::Gram;
 
@@ -42,6 +43,9 @@ const HIGHER_ORDER: f64 = 0.05;
 const ODD: f64 = 8.0;
 /// Degrees of freedom that have to be left beside a pattern: with fewer, F has no power, and a pattern of many fields fits anything.
 const LEFT: usize = 10;
+/// Fields of which the unknowns leave nearly nothing are known to five digits. Where a network is bent so far that its equations are nearly
+/// singular they are not, and seem to explain more than this part of eᵀPe, which nothing can: then they are not tested.
+const BEYOND: f64 = 1.01;
 /// Photos that are tested one by one: each costs 16 fields, and the work grows with the square of their number.
 const PHOTOS: usize = 32;
 /// Numbers over all unknowns that the photos' fields may take: 32 MB twice.
@@ -85,9 +89,12 @@ impl Squares {
         self.judge(candidate, lowered, degrees)
     }
 
-    /// `None` without fields that the unknowns leave, or with too few degrees of freedom beside them.
+    /// `None` without fields that the unknowns leave, with too few degrees of freedom beside them, or where rounding decides.
     fn judge(&self, candidate: PatternCandidate, lowered: f64, degrees: usize) -> Option<TestedPattern> {
         let others = self.redundancy.checked_sub(degrees).filter(|others| *others >= LEFT && degrees > 0)? as f64;
+        if lowered > BEYOND * self.sum {
+            return None;
+        }
         // rounding may leave nothing or less
         let left = (self.sum - lowered).max(1e-12 * self.sum);
         let (k, r) = (degrees as f64, self.redundancy as f64);
@@ -123,10 +130,20 @@ pub fn patterns(session: &mut Session<'_>, options: &AdjustOptions, cost: f64) -
     let named = rows.iter_mut().find(|row| row.named && row.kind == PatternKind::Photo);
     if let (Some(named), Some(suspect)) = (named, suspect)
         && let Some(odd) = alone::odd(session, options, suspect)
+        && (!named.photos.is_empty() || odd_tell_more(session.redundancy, named, &odd))
     {
-        named.photos = odd.into_iter().map(|photo| session.project.photos[photo].id.clone()).collect();
+        named.photos = odd.photos.into_iter().map(|photo| session.project.photos[photo].id.clone()).collect();
     }
     rows
+}
+
+/// Whether a few photos with cameras of their own tell more, with their unknowns, than what every photo has of its own with its fields: of four
+/// of ten autofocused photos the rest agrees by chance.
+fn odd_tell_more(redundancy: usize, every: &ResidualPattern, odd: &Odd) -> bool {
+    let r = redundancy as f64;
+    let bic = |cost: f64, unknowns: usize| r * cost.max(f64::MIN_POSITIVE).ln() + unknowns as f64 * r.ln();
+    let left = every.sigma0 * every.sigma0 * (r - every.degrees as f64).max(1.0);
+    bic(odd.cost, odd.unknowns) < bic(left, every.degrees)
 }
 
 /// The patterns with their tests, and the photo whose own interior orientation explains most where a pattern of photos is named.

@@ -173,6 +173,8 @@ reasons! {
     // Calibrations judged
     CalibrationGrid => "a grid must have 2 to 1000 places along each side";
     CalibrationDistance => "a distance must be a finite number above 0, in the unit of the project";
+    CalibrationPlaces => "1 to 1000 places inside of the image are expected";
+    CalibrationUnmeasured => "no photo of this camera has a measurement that took part in the adjustment";
     TranslationWithoutDistance => "a translation changes no direction at infinity: give a distance, or remove the rotation only";
     PhotosOfNoAdjustment => "two cameras by themselves have no photos: remove a rotation, rotation and translation, or nothing";
     NoCameraCovariance => "the adjustment has no standard errors of this camera's parameters: estimate some of them, with statistics";

@@ -29,6 +29,7 @@ mod adjust {
 mod calibration {
     mod coverage;
     mod cross;
+    mod distance;
     mod models;
     mod patterns;
     mod uncertainty;

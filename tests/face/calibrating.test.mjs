@@ -51,3 +51,19 @@ test('correlations come in groups, coverage and proposals are told', () => {
   assert.deepEqual(sightline.proposedModels(project.cameras[0], 500)[0], 'opencv_fisheye');
   assert.deepEqual(sightline.proposedModels(project.cameras[0], 5000), []);
 });
+
+test('uncertainty by distance is that of the map, and bands have all measurements', () => {
+  const project = stereo();
+  const result = sightline.adjust(project);
+  const found = sightline.uncertaintyOverDistance(project, result, { camera: 'left' });
+  assert.deepEqual([found.distances.length, found.places.length], [33, 5]);
+  assert.ok(found.measured[0] > 500 && found.measured[1] < 1500, String(found.measured));
+  const distance = found.distances[20];
+  const map = sightline.projectionUncertainty(project, result, { camera: 'left', grid: [3, 3], distance, reference: 'photos' });
+  assert.ok(Math.abs(found.places[0].sigma[20] / map.sigma[1][1] - 1) < 1e-9);
+  const bands = sightline.residualBands(project, result, { camera: 'left', bands: 4 });
+  const measured = project.observations.filter(({ photo }) => photo.startsWith('left')).length;
+  for (const all of [bands.columns, bands.rows]) assert.equal(all.reduce((sum, band) => sum + band.count, 0), measured);
+  const error = thrown(() => sightline.uncertaintyOverDistance(project, result, { camera: 'left', places: [[-5, 0]] }));
+  assert.deepEqual([error.code, error.data.reason.kind, error.where.field], ['invalid', 'calibration_places', 'places']);
+});

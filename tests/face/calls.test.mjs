@@ -118,6 +118,8 @@ function calls() {
     applyAdjustment: [[project, adjustment], 10],
     measureFeatures: [[project, {}], 5],
     projectionUncertainty: [[project, adjustment, { grid: [3, 3] }], 5],
+    uncertaintyOverDistance: [[project, adjustment, { distances: [500, 2000], places: [[10, 10]] }], 5],
+    residualBands: [[project, adjustment, { bands: 4 }], 5],
     compareCameras: [[project.cameras[0], project.cameras[0], { grid: [3, 3] }], 10],
     crossValidate: [[project, { grid: [3, 3], adjust: { max_iterations: 5 } }], 2],
     compareModels: [[project, { adjust: { max_iterations: 5 } }], 1],

@@ -169,6 +169,8 @@ test('every field that the engine returns is declared, and every declared field 
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
     literal('cross', 'S.CrossValidation', sightline.crossValidate(noisy, { grid: [3, 3], camera: 'c' })),
+    literal('overDistance', 'S.DistanceUncertainty', sightline.uncertaintyOverDistance(noisy, sightline.adjust(noisy), { camera: 'c', places: [[320, 240], [0, 0]] })),
+    literal('bands', 'S.ResidualBands', sightline.residualBands(noisy, sightline.adjust(noisy), { camera: 'c', bands: 3 })),
     literal('coverage', 'S.Coverage', sightline.calibrationCoverage(noisy, 'c')),
     literal('proposed', 'S.CameraModelName[]', sightline.proposedModels(noisy.cameras[0], 300)),
     literal('models', 'S.ComparedModel[]', sightline.compareModels(noisy)),

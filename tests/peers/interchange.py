@@ -267,6 +267,17 @@ def uncertainty(peer):
         both = np.isfinite(theirs) & np.isfinite(here)
         assert both.sum() > 100, both.sum()
         judge("mrcal projection uncertainty at infinity, quotient", np.ones(both.sum()), here[both] / theirs[both], 0.02)
+        # By distance: from a tenth of the nearest board to ten times the farthest, at the centre and on the half diagonals.
+        distances = np.geomspace(0.1, 30, 16).tolist()
+        places = [[width * (1 + a) / 2, height * (1 + b) / 2] for a, b in [(0, 0), (-0.6, -0.6), (0.6, -0.6), (-0.6, 0.6), (0.8, 0.8)]]
+        found = ours("distances", saved, save(f"{folder}/options.json", dict(camera="c", distances=distances, places=places)))
+        rays = peer.unproject(np.array(places) - 0.5, *model.intrinsics(), normalize=True)
+        for place, ray in zip(found["uncertainty"]["places"], rays):
+            near = peer.projection_uncertainty(np.outer(distances, ray), model, what="worstdirection-stdev", observed_pixel_uncertainty=found["sigma0"])
+            far = peer.projection_uncertainty(ray, model, atinfinity=True, what="worstdirection-stdev", observed_pixel_uncertainty=found["sigma0"])
+            here = np.array([*place["sigma"], place["infinity"]], float)
+            theirs = np.array([*near, far])
+            judge(f"mrcal projection uncertainty over distance at {place['u']:.0f}, {place['v']:.0f}, quotient", np.ones(len(here)), here / theirs, 0.02)
 
 
 def moved(position, angles, at):

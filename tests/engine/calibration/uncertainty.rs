@@ -33,7 +33,7 @@ fn add(sums: &mut Sums, j: usize, i: usize, d: [f64; 2]) {
 }
 
 /// Mean over the photos of the camera-frame point that stays with the object: the first photos are true.
-fn kept_by_photos(truth: &Project, found: &Adjustment, p: Vector3<f64>) -> Vector3<f64> {
+pub fn kept_by_photos(truth: &Project, found: &Adjustment, p: Vector3<f64>) -> Vector3<f64> {
     let photos = truth.photos.iter().zip(&found.photos);
     let moved = photos.map(|(before, after)| {
         assert_eq!(before.id, after.id);

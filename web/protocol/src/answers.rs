@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use sightline::Error;
 use sightline::adjustment::{AdjustedPhoto, Adjustment, Iteration};
+use sightline::calibration::{DistanceUncertainty, ProjectionUncertainty, ResidualBands};
 use sightline::detection::Detection;
 use sightline::exif::PhotoInfo;
 use sightline::orient::Note;
@@ -13,6 +14,19 @@ use sightline_exchange::foreign::ImportedCamera;
 use sightline_report::sheets::CodeCount;
 
 use crate::pieces::Piece;
+/// How well an adjusted camera predicts pixels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CameraJudged {
+    /// Of directions, over the image, after the rotation that takes over most.
+    pub uncertainty: ProjectionUncertainty,
+    /// By distance.
+    pub distance: Option<DistanceUncertainty>,
+    /// Why there is none.
+    pub why: Option<Error>,
+    /// Residuals by column and row.
+    pub bands: ResidualBands,
+}
+
 /// Files of other programs that were read.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Foreign {

@@ -29,8 +29,8 @@ use sightline_report::plots::Plot;
 use sightline_report::sheets::SheetOptions;
 
 pub use answers::{
-    Adjusted, Adjusting, Content, Drawn, Foreign, ForeignCameras, Glanced, Opened, PlanOf, ReportMade, SamplePhotoMade,
-    Shown, Situated, Unpacked, Values, Written,
+    Adjusted, Adjusting, CameraJudged, Content, Drawn, Foreign, ForeignCameras, Glanced, Opened, PlanOf, ReportMade,
+    SamplePhotoMade, Shown, Situated, Unpacked, Values, Written,
 };
 pub use inside::{Found, Inquiry, InsideOf, Looked, Places, factor_bytes, factor_from, matrices, matrices_from};
 pub use pieces::{Long, Piece, from_pieces, written};
@@ -269,6 +269,12 @@ tasks! {
         CompareModels { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: ModelsOptions } => Nothing, Vec<ComparedModel>;
         /// Calibrate a camera from parts of the photos and compare the parts; the network is oriented first where it is not.
         CrossValidate { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: CrossOptions } => Nothing, CrossValidation;
+        /// How well an adjusted camera predicts where a point appears, by place and by distance, and its residuals by column and row.
+        JudgeCamera {
+            /** Oriented, as it was adjusted. */ pub project: Project,
+            /** With standard errors of the camera. */ pub adjustment: Adjustment,
+            /** Which. */ pub camera: String,
+        } => Nothing, CameraJudged;
         /// Coverage of the image by the targets of a camera's photos.
         CoverPhotos { /** The photos. */ pub project: Project, /** Of which camera. */ pub camera: String } => Nothing, Coverage;
         /// Measure the features of a project at the values that an adjustment with these options gave it.

@@ -174,6 +174,8 @@ pub fn reason(reason: &Reason) -> String {
         R::MonitoringThresholds => "한계값은 0보다 큰 길이이고, 주의 한계는 경보 한계를 넘을 수 없습니다",
         R::CalibrationGrid => "격자는 각 변에 2–1000개의 점이 있어야 합니다",
         R::CalibrationDistance => "거리는 프로젝트 단위로 0보다 큰 유한한 수입니다",
+        R::CalibrationPlaces => "사진 안의 위치 1~1000개가 필요합니다",
+        R::CalibrationUnmeasured => "이 카메라의 사진에는 조정에 쓰인 관측이 없습니다",
         R::TranslationWithoutDistance => "이동은 방향을 바꾸지 않습니다. 거리를 지정하거나 회전만 제거하십시오",
         R::PhotosOfNoAdjustment => "카메라 두 개만으로는 사진이 없습니다. 회전, 회전과 이동, 또는 없음을 선택하십시오",
         R::NoCameraCovariance => {

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::adjust::apply;
-use sightline::adjustment::AdjustOptions;
+use sightline::adjustment::{AdjustOptions, AdjustedCamera};
 use sightline::calibration::{Coverage, CrossOptions, CrossValidation};
 use sightline::project::Project;
-use sightline_protocol::{CoverPhotos, CrossValidate};
+use sightline_protocol::{CameraJudged, CoverPhotos, CrossValidate, JudgeCamera};
 
 use super::background::Stop;
 use super::models::CameraResult;
@@ -63,6 +63,42 @@ impl Desk {
     pub fn cross_validation_of(self, camera: &str) -> Option<Arc<CrossValidation>> {
         let crossed = self.models.crossed.get().filter(|crossed| crossed.camera == camera)?;
         self.document.with(|d| Arc::ptr_eq(&d.project, &crossed.project)).then_some(crossed.found)
+    }
+
+    /// Whether the present adjustment has standard errors of a camera's common interior orientation.
+    pub fn is_calibrated(self, camera: &str) -> bool {
+        let has = |found: &AdjustedCamera| {
+            found.camera.id == camera && found.photo.is_none() && !found.correlation.names.is_empty()
+        };
+        self.document.with(|d| d.current().is_some_and(|result| result.adjustment.cameras.iter().any(has)))
+    }
+
+    /// How well a camera predicts pixels, for the present adjustment.
+    pub fn judged_camera(self, camera: &str) -> Option<Arc<CameraJudged>> {
+        let judged = self.models.judged.get().filter(|judged| judged.camera == camera)?;
+        let is_present = |d: &Document| d.current().is_some_and(|result| Arc::ptr_eq(&result.input, &judged.project));
+        self.document.with(is_present).then_some(judged.found)
+    }
+
+    /// Computes how well a camera predicts pixels.
+    pub fn judge_camera(self, camera: &str) {
+        let Some((of, task)) = self.document.with_untracked(|d| {
+            let result = d.current()?;
+            let (project, adjustment) = ((*result.oriented).clone(), result.adjustment.clone());
+            Some((result.input.clone(), JudgeCamera { project, adjustment, camera: camera.to_owned() }))
+        }) else {
+            return;
+        };
+        let camera = camera.to_owned();
+        let on_outcome = move |outcome: TaskOutcome<JudgeCamera>| match outcome {
+            TaskOutcome::Progress(nothing) => match nothing {},
+            TaskOutcome::Failed(failure) => self.tell_failure(failure),
+            TaskOutcome::Done(found, _) => {
+                let judged = CameraResult { camera: camera.clone(), project: of.clone(), found: Arc::new(found) };
+                self.models.judged.set(Some(judged));
+            }
+        };
+        self.ask(Stop(words::judging, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Calibrates a camera from each half of its photos.

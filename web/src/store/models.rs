@@ -7,7 +7,7 @@ use sightline::adjust::apply;
 use sightline::adjustment::AdjustOptions;
 use sightline::calibration::{ComparedModel, Coverage, CrossValidation, ModelConversion, ModelsOptions};
 use sightline::project::{Camera, Project};
-use sightline_protocol::{CompareModels, ConvertCamera};
+use sightline_protocol::{CameraJudged, CompareModels, ConvertCamera};
 
 use super::Desk;
 use super::background::Stop;
@@ -40,6 +40,7 @@ pub struct CameraResult<T> {
 pub struct Models {
     compared: RwSignal<Option<Compared>>,
     pub(super) crossed: RwSignal<Option<CameraResult<CrossValidation>>>,
+    pub(super) judged: RwSignal<Option<CameraResult<CameraJudged>>>,
     pub(super) covered: RwSignal<Vec<CameraResult<Coverage>>>,
     /// Remaining differences of conversions, the latest of each camera.
     converted: RwSignal<Vec<ModelConversion>>,
@@ -50,6 +51,7 @@ impl Models {
         Self {
             compared: RwSignal::new(None),
             crossed: RwSignal::new(None),
+            judged: RwSignal::new(None),
             covered: RwSignal::new(Vec::new()),
             converted: RwSignal::new(Vec::new()),
         }

@@ -220,7 +220,6 @@ fn Crossed(found: CrossValidation) -> impl IntoView {
     };
     let worst = found.worst.as_ref().map(|worst| words::worst(format::fixed(worst.u, 0), format::fixed(worst.v, 0)));
     let is_bad = found.verdict != CrossVerdict::Agrees;
-    let edges = [CLASSES.map(words::up_to).to_vec(), vec![words::beyond(CLASSES[CLASSES.len() - 1])]].concat();
     view! {
         <div data-result="cross-validation" data-verdict=code>
             <p class="note" class:warn=is_bad role="status">{said} " " {worst}</p>
@@ -228,17 +227,26 @@ fn Crossed(found: CrossValidation) -> impl IntoView {
                 <Map name=words::predicted values=found.predicted.clone() covered=found.covered.clone()/>
                 <Map name=words::observed values=found.observed.clone() covered=found.covered.clone()/>
             </div>
-            <p class="hint map-key">{edges.into_iter().enumerate().map(|(k, edge)| view! {
-                <span><i class=format!("map-class map-{k}")></i>{edge}</span>
-            }).collect_view()}</p>
+            <MapKey/>
             <p class="hint">{words::map_words}</p>
         </div>
     }
 }
 
+/// The classes of the maps.
+#[component]
+pub(super) fn MapKey() -> impl IntoView {
+    let edges = [CLASSES.map(words::up_to).to_vec(), vec![words::beyond(CLASSES[CLASSES.len() - 1])]].concat();
+    view! {
+        <p class="hint map-key">{edges.into_iter().enumerate().map(|(k, edge)| view! {
+            <span><i class=format!("map-class map-{k}")></i>{edge}</span>
+        }).collect_view()}</p>
+    }
+}
+
 /// A map over the picture, a cell a place of the grid.
 #[component]
-fn Map(name: crate::i18n::Text, values: Vec<Vec<Option<f64>>>, covered: Vec<Vec<bool>>) -> impl IntoView {
+pub(super) fn Map(name: crate::i18n::Text, values: Vec<Vec<Option<f64>>>, covered: Vec<Vec<bool>>) -> impl IntoView {
     let (rows, columns) = (values.len(), values.first().map_or(0, Vec::len));
     let class = |value: Option<f64>| match value {
         Some(value) => format!("map-{}", CLASSES.iter().filter(|end| value > **end).count()),

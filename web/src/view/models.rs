@@ -7,6 +7,7 @@ use sightline::project::{Camera, CameraModel, Parameter};
 use sightline_report::names::parameter_name;
 
 use super::calibrating::CrossCheck;
+use super::predicted::Predicted;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{errors, modelling as words};
@@ -135,6 +136,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
                 <p class="note">{words::compared_note}</p>
             })}
             <CrossCheck camera=id.get_value()/>
+            <Predicted camera=id.get_value()/>
             </td></tr>
         </Show>
     }

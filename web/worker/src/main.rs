@@ -5,6 +5,7 @@ mod codecs;
 mod decoded;
 mod foreign;
 mod inside;
+mod judged;
 mod scope;
 mod tasks;
 

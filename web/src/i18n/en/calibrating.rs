@@ -48,6 +48,21 @@ declare! { calibrating {
     up_to(px): "≤ {px} px";
     beyond(px): "> {px} px";
     worst(u, v): "Largest at {u}, {v} px.";
+    predict: "Projection uncertainty";
+    predict_why: "Standard error of the pixel at which the calibrated camera sees a point, over the image and by distance; residuals by column and row.";
+    judging: "computing the projection uncertainty";
+    predicts(median, worst, u, v): "Directions are predicted to {median} px (1σ, median over the image); at worst to {worst} px, at {u}, {v} px.";
+    uncertainty_map: "Projection uncertainty, 1σ px";
+    predict_words: "Map: directions, after the rotation that takes over most. By distance: the mean motion of the photos is removed; shaded, the distances at which the photos have targets. Systematic errors of the camera model are not included: cross-validate to find them. Hatched: no target nearby.";
+    by_distance: "Uncertainty by distance";
+    distance_in(unit): "distance {unit}";
+    centre: "centre";
+    corners: "corners";
+    of_photos: "photos";
+    no_distance(reason): "No uncertainty by distance: {reason}";
+    by_column: "Residuals by column; line: expected from the standard errors";
+    by_row: "Residuals by row; line: expected from the standard errors";
+    band(from, to, rms, count): "{from}–{to}: rms {rms} px, {count} measurements";
     proposed(degrees, models): "The focal length gives {degrees}° across the diagonal: such lenses usually need {models}. The model is not changed automatically; compare the models when the photos are measured.";
     propose_use(model): "Use {model}";
 } }

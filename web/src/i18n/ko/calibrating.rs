@@ -48,6 +48,21 @@ translate! { Korean calibrating {
     up_to(px): "≤ {px} px";
     beyond(px): "> {px} px";
     worst(u, v): "최대 위치: {u}, {v} px.";
+    predict: "투영 불확도";
+    predict_why: "검정한 카메라로 예측한 점의 화소 위치가 얼마나 불확실한지를 사진 위치별, 거리별 표준오차로 보여 줍니다. 열별, 행별 잔차도 함께 표시합니다.";
+    judging: "투영 불확도를 계산하는 중";
+    predicts(median, worst, u, v): "방향을 {median} px(1σ, 사진 전체의 중앙값)로 예측합니다. 가장 불확실한 곳은 {u}, {v} px이며 {worst} px입니다.";
+    uncertainty_map: "투영 불확도, 1σ px";
+    predict_words: "지도: 대부분을 흡수하는 회전을 뺀 방향의 불확도. 거리별: 사진들의 평균 이동을 뺀 값이며, 음영은 사진에 표적이 찍힌 거리입니다. 카메라 모형의 계통오차는 들어 있지 않으므로 교차 검증으로 확인하십시오. 빗금: 가까이에 표적이 없음.";
+    by_distance: "거리별 불확도";
+    distance_in(unit): "거리 {unit}";
+    centre: "중심";
+    corners: "모서리";
+    of_photos: "사진";
+    no_distance(reason): "거리별 불확도를 계산할 수 없습니다. {reason}";
+    by_column: "열별 잔차, 선: 표준오차로 예상되는 값";
+    by_row: "행별 잔차, 선: 표준오차로 예상되는 값";
+    band(from, to, rms, count): "{from}–{to}: rms {rms} px, 관측 {count}개";
     proposed(degrees, models): "초점거리로 보면 대각선 화각이 {degrees}°입니다. 이런 렌즈에는 대개 {models} 모형이 필요합니다. 자동으로 바꾸지 않으니 사진을 측정한 뒤 모형을 비교하십시오.";
     propose_use(model): "{model} 사용";
 } }
