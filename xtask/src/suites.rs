@@ -190,8 +190,8 @@ fn peers(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
         return Ok(Count { skipped: 1, ..Count::default() });
     }
     let mut all = Count::default();
-    for name in ["interchange", "equations"] {
-        let (script, example) = (format!("tests/peers/{name}.py"), format!("{examples}/{name}"));
+    for (name, example) in [("interchange", "interchange"), ("networks", "interchange"), ("equations", "equations")] {
+        let (script, example) = (format!("tests/peers/{name}.py"), format!("{examples}/{example}"));
         let count = counted(out, &mut program(&python, &[&script, &example]), peers_count)?;
         all = Count {
             passed: all.passed + count.passed,
