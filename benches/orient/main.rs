@@ -1,6 +1,6 @@
 //! Orientation over seeded networks: `cargo bench --bench orient -- [first] [count] [most photos] [-v] [-n]`, with -v a line
 //! for every network, with -n its notes;
-//! `-- large [first] [count]` for 60 photos with 300 points; `-- seeds 3 14 15` (and `-- large seeds 2`) for those networks alone,
+//! `-- large [first] [count]` for 60 photos with 300 points, `-- huge [first] [count]` for 200 with 1000; `-- seeds 3 14 15` (and `-- large seeds 2`) for those networks alone,
 //! a line for each; `-- dots` for the matching of bare dots; `-- write FOLDER` (and `-- large write FOLDER`) writes what orientation
 //! is given of the networks, for `benches/oriented.mjs`.
 
@@ -21,6 +21,12 @@ fn seconds_used() -> f64 {
     let told = std::fs::read_to_string("/proc/self/schedstat").ok();
     let nanoseconds = told.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
     nanoseconds.map_or_else(|| began.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
+}
+
+/// 200 photos with 1000 points, seen in 6, 15 or 40 photos, otherwise as the large ones.
+fn huge_case(seed: u64) -> Case {
+    let case = Case::large(seed);
+    Case { photos: 200, size: case.size.map(|[_, rays]| [1000.0, rays]), ..case }
 }
 
 fn main() {
@@ -47,7 +53,8 @@ fn main() {
         return;
     }
     let numbers: Vec<u64> = words.iter().filter_map(|a| a.parse().ok()).collect();
-    let large = words.iter().any(|w| w == "large");
+    let huge = words.iter().any(|w| w == "huge");
+    let large = huge || words.iter().any(|w| w == "large");
     let named = words.iter().any(|w| w == "seeds");
     let first = numbers.first().copied().unwrap_or(0);
     let count = numbers.get(1).copied().unwrap_or(if large { 21 } else { 1500 });
@@ -61,7 +68,11 @@ fn main() {
     let mut groups: BTreeMap<String, [f64; 8]> = BTreeMap::new();
     let folder = words.iter().position(|w| w == "write").and_then(|at| words.get(at + 1));
     for seed in seeds {
-        let case = if large { Case::large(seed) } else { Case::of(seed, most) };
+        let case = match (huge, large) {
+            (true, _) => huge_case(seed),
+            (_, true) => Case::large(seed),
+            _ => Case::of(seed, most),
+        };
         let network = network::network(&case);
         if let Some(folder) = folder {
             let json = serde_json::to_vec(&network.given).expect("a document");

@@ -2,17 +2,21 @@
 //!
 //! | convention | here |
 //! | --- | --- |
-//! | pixel origin | the principal point: the centre of the picture, or cx, cy of `FixedK`; x right, y down |
+//! | pixel origin | the principal point: the centre of the picture, or cx, cy of `FixedK`; x right, y down. In files that COLMAP writes, the corner of the picture |
 //! | axes | camera: x right, y down, z forwards |
 //! | rotation | quaternion w x y z, object to camera, and the projection centre |
 //! | distortion | measured to ideal: (1 + k ρ² / f²) m = f (X/Z, Y/Z) with ρ the distance of m from the principal point, pixels |
 //!
 //! Source: C. Wu, VisualSFM documentation ("NVM format"; `[Normalized radial distortion] = [radial distortion] * [focal length]²` in its camera lists), and
-//! COLMAP, `reconstruction_io.cc`, `ExportNVM`, which writes the coefficient of its opposite sense with the other sign. Blanks of a file name stand as
+//! COLMAP, `reconstruction_io.cc`, `ExportNVM`, which writes the coefficient of its opposite sense with the other sign, and keypoints as they are in its model, from the
+//! corner of the picture, without the principal point. Such a file has no negative measurement, and its measurements differ from the images of its points by one shift, which
+//! is the principal point; half of the picture is the same shift. Blanks of a file name stand as
 //! quotation marks. The file has no size of the picture: see [`bal`](super::bal). The first model is read; further models, colours and the numbers
 //! of features are counted. Photos are named by their files, points by their places from 0.
 
 use std::collections::HashMap;
+
+use nalgebra::Vector3;
 
 use super::bal::{self, Words};
 use super::foreign::{Assumed, ForeignCamera, ForeignModel, Pose};
@@ -82,13 +86,20 @@ pub fn read(text: &str) -> Result<ForeignNetwork> {
     let further = words.rest().first().is_some_and(|word| word.parse::<usize>().is_ok_and(|count| count > 0));
     network.notes.ignore("further models", usize::from(further));
     network.notes.ignore("colours of points", points);
-    let (size, centre) = match fixed {
-        Some([_, cx, cy]) => {
+    let corners = fixed.is_none().then(|| principal_point_of_corners(&photos, &network.points, &measured)).flatten();
+    let (size, centre) = match (fixed, corners) {
+        (Some([_, cx, cy]), _) => {
             network.notes.assume(Assumed::ImageSizeFromPrincipalPoint);
             let side = |c: f64| (2.0 * c).round().clamp(1.0, 1e6) as u32;
             ([side(cx), side(cy)], [cx, cy])
         }
-        None => {
+        (None, Some(centre)) => {
+            network.notes.assume(Assumed::ImageSizeFromPrincipalPoint);
+            // What was measured from the principal point below.
+            measured.iter_mut().for_each(|(.., [x, y])| (*x, *y) = (*x - centre[0], *y - centre[1]));
+            (centre.map(|c| (2.0 * c).round().clamp(1.0, 1e6) as u32), centre)
+        }
+        (None, None) => {
             network.notes.assume(Assumed::ImageSizeFromMeasurements);
             let size = bal::size(measured.iter().map(|(.., pixel)| *pixel));
             (size, size.map(|side| f64::from(side) / 2.0))
@@ -105,6 +116,38 @@ pub fn read(text: &str) -> Result<ForeignNetwork> {
     }
     network.notes.assume(Assumed::SigmaOnePixel);
     Ok(network)
+}
+
+/// Measurements that a principal point is taken from, at least.
+const FEWEST: usize = 8;
+/// Share of the largest measurement that a principal point has at least: it is half of it where measurements fill the picture, and 0 where
+/// they are from the principal point.
+const LEAST: f64 = 0.25;
+
+/// The principal point of a file whose measurements are from the corner of the picture: their median difference from the images of their points.
+fn principal_point_of_corners(
+    photos: &[(String, [f64; 2], Pose)],
+    points: &[Point],
+    measured: &[(usize, usize, [f64; 2])],
+) -> Option<[f64; 2]> {
+    if measured.len() < FEWEST || measured.iter().any(|(.., [x, y])| !(*x >= 0.0 && *y >= 0.0)) {
+        return None;
+    }
+    let differences = measured.iter().filter_map(|(photo, point, [x, y])| {
+        let (_, [f, _], pose) = &photos[*photo];
+        let at = pose.rotation * (Vector3::from(points[*point].xyz?) - Vector3::from(pose.position));
+        let difference = [x - f * at.x / at.z, y - f * at.y / at.z];
+        (at.z > 0.0 && difference.iter().all(|d| d.is_finite())).then_some(difference)
+    });
+    let differences: Vec<[f64; 2]> = differences.collect();
+    let median = |k: usize| {
+        let mut values: Vec<f64> = differences.iter().map(|d| d[k]).collect();
+        let middle = values.len() / 2;
+        (values.len() >= FEWEST).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+    };
+    let centre = [median(0)?, median(1)?];
+    let largest = |k: usize| measured.iter().map(|(.., pixel)| pixel[k]).fold(0.0, f64::max);
+    (0..2).all(|k| centre[k] >= LEAST * largest(k) && centre[k] < 5e5).then_some(centre)
 }
 
 /// The camera of these parameters: that of the photo before where it is the same, else a new one.
@@ -128,7 +171,6 @@ fn camera(network: &mut ForeignNetwork, [f, k]: [f64; 2], size: [u32; 2], centre
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
     use sightline::camera::pixel_from_camera_point;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -159,6 +201,36 @@ mod tests {
         // Rotated by half a turn about x: y down becomes y up, and it looks along -z.
         let photo = &network.photos[1];
         assert!(photo.rotation.unwrap().iter().all(|angle| angle.abs() < 1e-12), "{:?}", photo.rotation);
+    }
+
+    /// As COLMAP writes it: keypoints from the corner of a picture of 1280 x 960. X/Z and Y/Z of the point k are (k - 5) / 10 and (k - 3) / 20, and f = 900.
+    #[test]
+    fn measurements_from_the_corner_have_their_principal_point() {
+        let point = |k: usize, [cx, cy]: [f64; 2]| {
+            let (x, y) = (0.1 * (k as f64 - 5.0), 0.05 * (k as f64 - 3.0));
+            format!("{} {} 5 1 2 3 1 0 {k} {} {}\n", 5.0 * x, 5.0 * y, cx + 900.0 * x, cy + 900.0 * y)
+        };
+        let file = |centre: [f64; 2]| {
+            let points: String = (0..10).map(|k| point(k, centre)).collect();
+            format!("NVM_V3 \n\n1\na.jpg 900 1 0 0 0 0 0 0 0 0\n\n10\n{points}")
+        };
+        let network = read(&file([640.0, 480.0])).unwrap();
+        assert_eq!(network.cameras[0].size, [1280, 960]);
+        let ForeignModel::Correction(camera, None) = &network.cameras[0].model else { panic!("a camera of ours") };
+        for (k, seen) in network.observations.iter().enumerate() {
+            let (x, y) = (0.1 * (k as f64 - 5.0), 0.05 * (k as f64 - 3.0));
+            let [u, v] = pixel_from_camera_point(camera, Vector3::new(x, -y, -1.0)).unwrap();
+            assert!((u - seen.u).abs() < 1e-9 && (v - seen.v).abs() < 1e-9, "{k}: {u} {v} for {seen:?}");
+            assert!((seen.u - (640.0 + 900.0 * x)).abs() < 1e-9 && (seen.v - (480.0 + 900.0 * y)).abs() < 1e-9);
+        }
+        // From the principal point, some are negative.
+        let network = read(&file([0.0, 0.0])).unwrap();
+        assert_eq!(network.cameras[0].size, [902, 542]);
+        // A principal point off the middle of the picture is kept.
+        let network = read(&file([650.25, 470.5])).unwrap();
+        let ForeignModel::Correction(camera, None) = &network.cameras[0].model else { panic!("a camera of ours") };
+        let [u, v] = pixel_from_camera_point(camera, Vector3::new(0.0, 0.0, -1.0)).unwrap();
+        assert!((u - 650.25).abs() < 1e-9 && (v - 470.5).abs() < 1e-9, "{u} {v}");
     }
 
     #[test]

@@ -69,7 +69,13 @@ pub(super) fn cores(block: &OrientationBlock, used: &[bool], fine_px: f64) -> Ve
         model.review();
         refine(&mut model, Freedom::Distance);
         if model.noise_px.is_some_and(|noise| noise <= ADJUSTED * fine_px) {
-            cores.push((NetworkQuality::of(&model).evidence, model));
+            let quality = NetworkQuality::of(&model);
+            let certain = quality.is_evident(&model, fine_px);
+            cores.push((quality.evidence, model));
+            // The others cost as many adjustments of all photos, and at best they come to the same network.
+            if certain {
+                break;
+            }
         }
     }
     cores.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -190,9 +190,13 @@ fn peers(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
         return Ok(Count { skipped: 1, ..Count::default() });
     }
     let mut all = Count::default();
-    for (name, example) in
-        [("interchange", "interchange"), ("equations", "equations"), ("calibration", "adjust"), ("grids", "grids")]
-    {
+    for (name, example) in [
+        ("interchange", "interchange"),
+        ("networks", "interchange"),
+        ("equations", "equations"),
+        ("calibration", "adjust"),
+        ("grids", "grids"),
+    ] {
         let (script, example) = (format!("tests/peers/{name}.py"), format!("{examples}/{example}"));
         let count = counted(out, &mut program(&python, &[&script, &example]), peers_count)?;
         all = Count {

@@ -17,6 +17,23 @@ const R: usize = 4;
 // Else the last block of a column would have rows of none.
 const _: () = assert!(TILE.is_multiple_of(R));
 
+/// The columns of a tile, or of its first part.
+#[inline(always)]
+fn columns(part: &[f64]) -> &[[f64; TILE]] {
+    part.as_chunks::<TILE>().0
+}
+
+/// sum += a·bᵀ of one register block. By places: where a crate is compiled in several units that are not optimised across each other, as
+/// in cargo's dev profile, the pairs of an iterator would be made by calls.
+#[inline(always)]
+fn multiply(sum: &mut [[f64; R]; R], a: &[f64; R], b: &[f64; R]) {
+    for k in 0..R {
+        for row in 0..R {
+            sum[k][row] += a[row] * b[k];
+        }
+    }
+}
+
 /// The four numbers of a column from a multiple of four on.
 #[inline(always)]
 fn four(column: &[f64], from: usize) -> &[f64; R] {
@@ -27,22 +44,17 @@ fn four(column: &[f64], from: usize) -> &[f64; R] {
 #[inline(always)]
 fn block<const SUBTRACT: bool>(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, first: usize) {
     let mut sum = [[0.0; R]; R];
-    for (a, b) in a[first * TILE..].chunks_exact(TILE).zip(b[first * TILE..].chunks_exact(TILE)) {
-        let a = four(a, i);
-        let b = four(b, j);
-        for (sum, &b) in sum.iter_mut().zip(b) {
-            for (sum, &a) in sum.iter_mut().zip(a) {
-                *sum += a * b;
-            }
-        }
+    let (a, b) = (columns(a), columns(b));
+    for column in first..TILE {
+        multiply(&mut sum, four(&a[column], i), four(&b[column], j));
     }
     for (k, sum) in sum.iter().enumerate() {
         let start = (j + k) * TILE + i;
-        for (c, sum) in c[start..start + R].iter_mut().zip(sum) {
+        for row in 0..R {
             if SUBTRACT {
-                *c -= sum;
+                c[start + row] -= sum[row];
             } else {
-                *c += sum;
+                c[start + row] += sum[row];
             }
         }
     }
@@ -118,14 +130,9 @@ pub fn solve_right(a: &mut Tile, l: &Tile) {
         let (done, rest) = a.split_at_mut(j * TILE);
         for i in (0..TILE).step_by(R) {
             let mut sum = [[0.0; R]; R];
-            for (a, l) in done.chunks_exact(TILE).zip(l.chunks_exact(TILE)) {
-                let a = four(a, i);
-                let l = four(l, j);
-                for (sum, &l) in sum.iter_mut().zip(l) {
-                    for (sum, &a) in sum.iter_mut().zip(a) {
-                        *sum += a * l;
-                    }
-                }
+            let (finished, triangle) = (columns(done), columns(l));
+            for k in 0..j {
+                multiply(&mut sum, four(&finished[k], i), four(&triangle[k], j));
             }
             for column in 0..R {
                 let inverse = 1.0 / l[(j + column) * TILE + j + column];
@@ -147,14 +154,8 @@ pub fn factor(a: &mut Tile, mut pivot: impl FnMut(usize, f64) -> f64) {
         let (done, rest) = a.split_at_mut(j * TILE);
         for i in (j..TILE).step_by(R) {
             let mut sum = [[0.0; R]; R];
-            for column in done.chunks_exact(TILE) {
-                let a = four(column, i);
-                let b = four(column, j);
-                for (sum, &b) in sum.iter_mut().zip(b) {
-                    for (sum, &a) in sum.iter_mut().zip(a) {
-                        *sum += a * b;
-                    }
-                }
+            for column in columns(done) {
+                multiply(&mut sum, four(column, i), four(column, j));
             }
             for (k, sum) in sum.iter().enumerate() {
                 for (row, sum) in sum.iter().enumerate() {
