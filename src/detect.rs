@@ -45,7 +45,7 @@ pub use damaged_rows::{detect_photo, measure_in_photo};
 use measure::Measure;
 use normal::BLUR;
 use outline::Outline;
-use pass::{Pass, Soft};
+use pass::Pass;
 use picture::character::{APART, Character};
 use picture::dither;
 use picture::noise::{self, GreyStatistics};
@@ -179,6 +179,7 @@ fn detect_in<T: Sample>(plane: SampleView<T>, options: &DetectOptions) -> Detect
     let mut picture = report(&levels, &character, options.method);
     let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), None, &[]);
     let coloured = passed.coloured;
+    let hidden = std::mem::take(&mut passed.occluded);
     if !processed && !levels.stairs {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
@@ -218,8 +219,15 @@ fn detect_in<T: Sample>(plane: SampleView<T>, options: &DetectOptions) -> Detect
     let left = first_left..detection.targets.len();
     let mut in_undone = vec![false; detection.targets.len()];
     detection.targets.extend(undone);
+    in_undone.resize(detection.targets.len(), true);
+    for target in hidden {
+        if detection.targets.iter().all(|other| are_apart(&outline_of(other), &outline_of(&target))) {
+            search::tested_outlines::forget_rejected(&mut detection, &target);
+            detection.targets.push(target);
+            in_undone.push(false);
+        }
+    }
     let found = detection.targets.len();
-    in_undone.resize(found, true);
     for (grounds, of_undone) in [(grounds, false), (undone_grounds, true)] {
         for ground in grounds {
             // one pass's disc may be another's target
@@ -252,6 +260,13 @@ fn is_same(one: &Target, other: &Target) -> bool {
     let apart = (one.u - other.u).hypot(one.v - other.v);
     let [near, ratio] = acceptance::place::SAME;
     apart < near * one.minor.min(other.minor) && one.major < ratio * other.major && other.major < ratio * one.major
+}
+
+/// Whether neither outline has the centre of the other in it.
+fn are_apart(one: &Outline, other: &Outline) -> bool {
+    let [c, s] = other.normalised(one.u, one.v);
+    let [own_c, own_s] = one.normalised(other.u, other.v);
+    c.hypot(s) >= 1.0 && own_c.hypot(own_s) >= 1.0
 }
 
 fn report(levels: &GreyStatistics, character: &Character, method: Method) -> PictureReport {
@@ -291,14 +306,7 @@ fn soften<T: Sample>(
     add(factors, restored.correlate());
     add(factors, softened.correlate());
     let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();
-    softened.detection.targets.retain(|target| {
-        let outline = outline_of(target);
-        !taken.iter().any(|other| {
-            let [c, s] = other.normalised(outline.u, outline.v);
-            let [own_c, own_s] = outline.normalised(other.u, other.v);
-            c.hypot(s) < 1.0 || own_c.hypot(own_s) < 1.0
-        })
-    });
+    softened.detection.targets.retain(|target| taken.iter().all(|other| are_apart(&outline_of(target), other)));
     (softened, Some((undone, restored)))
 }
 
@@ -325,8 +333,7 @@ fn pass_softened<T: Sample>(
         developed: own.developed,
         ..levels
     };
-    let mut passed =
-        pass::pass(soft.plane(), levels, options, true, Some(Soft { scale: soft.scale, blur: sigma }), known);
+    let mut passed = pass::pass(soft.plane(), levels, options, true, Some(sigma), known);
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;
@@ -360,8 +367,7 @@ fn in_rings<'a, T: Sample>(
     let mut colours = Vec::new();
     let wanted = if processed { ExpectedShape::InRingOrWide } else { ExpectedShape::InRing };
     pass::take_small_targets(&mut measure, &mut tested, &mut colours, doubtful, &common, wanted);
-    let mut left =
-        Pass { detection: tested.finish(), grounds: Vec::new(), colours, doubtful: Vec::new(), coloured: processed };
+    let mut left = Pass { detection: tested.finish(), colours, coloured: processed, ..Pass::default() };
     left.correlate();
     left.detection.targets
 }

@@ -277,6 +277,10 @@ pub struct Target {
     /// The rim of a hole in it, about the same centre: of a donut the outer rim is the target, and this is a property of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<InnerRim>,
+    /// Whether something hides a part of its rim: its centre is that of the ellipse through the edges that are seen
+    /// ([`Quality::occluded`] is the share that is not), and it takes no part unless a user names it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub occluded: bool,
     /// How good the image is.
     pub quality: Quality,
 }

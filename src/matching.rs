@@ -71,6 +71,8 @@ pub enum Doubt {
     CodeFamily,
     /// Its ring is not safely one code.
     CodeUnclear,
+    /// Something hides a part of its rim, so that its centre is rough.
+    Occluded,
     /// Rays of other photos fit it in more than one way.
     Ambiguous,
     /// It disagrees with the other rays of its point.
@@ -117,6 +119,7 @@ pub(crate) fn target(u: f64, v: f64, code: Option<u32>) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: crate::detection::Quality::default(),
     }
 }

@@ -47,6 +47,7 @@ pub fn target(u: f64, v: f64) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: Quality::default(),
     }
 }

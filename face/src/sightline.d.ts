@@ -1018,6 +1018,11 @@ export interface Target {
   code_candidates: CodeCandidate[];
   /** The inner edge of a ring-shaped target, whose outer edge is the target. */
   inner?: InnerRim;
+  /**
+   * Whether something hides a part of its rim: its centre is that of the ellipse through the visible edges, with a standard error for what
+   * those cannot show. Neither codes nor matching name it; it takes part where a user names it.
+   */
+  occluded?: boolean;
   quality: Quality;
 }
 
@@ -1168,7 +1173,7 @@ export interface Doubtful {
   /** Number of the target in its photo, where it has one. */
   target?: number;
   points: string[];
-  reason: "duplicate_code" | "code_family" | "code_unclear" | "ambiguous" | "disagrees";
+  reason: "duplicate_code" | "code_family" | "code_unclear" | "occluded" | "ambiguous" | "disagrees";
 }
 
 export interface NameCodedOptions {

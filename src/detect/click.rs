@@ -3,7 +3,7 @@
 use super::measure::{Measure, PreliminaryTarget};
 use super::picture::noise::{self, GreyStatistics};
 use super::rims::{self, Donut};
-use super::search::{self, Hidden};
+use super::search;
 use super::window::Window;
 use super::{Outline, SampleView, code};
 use crate::detect::acceptance::place::BESIDE;
@@ -93,7 +93,7 @@ fn at<T: Sample, R>(
         let Window { left, top, width, height, samples } = Window::of(&plane, u, v, size);
         let part = SampleView::new(width, height, &samples);
         let levels = noise::levels(&part);
-        let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options, Hidden::None)
+        let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options, false)
             .into_iter()
             .flat_map(|blobs| blobs.candidates)
             .map(|candidate| {

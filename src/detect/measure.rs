@@ -4,7 +4,6 @@ pub(super) mod confirm;
 
 use super::acceptance::fit as limits;
 use super::acceptance::levels::{BELIEVED, ROUNDING};
-use super::acceptance::outline::GAP_MINOR;
 use super::acceptance::quick_test::OUTSIDE;
 use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
@@ -23,7 +22,6 @@ use super::rendered::band::{PixelRegion, Prior};
 use super::rendered::fit::{self, Workspace};
 use super::rendered::neighbours::Neighbours;
 use super::rendered::noise_autocorrelation::NoiseProducts;
-use super::rendered::strip::Strip;
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Sample, SampleView};
 
@@ -34,12 +32,6 @@ const CONVERGED: f64 = 1e-4;
 /// Half the width of the band of pixels that the rim's blur reaches.
 fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
-}
-
-/// A strip across a target that is large enough: of small letters only the bowl would remain.
-fn strip(outline: &Outline, kept: &[bool], blur: f64) -> Option<Strip> {
-    let large = 2.0 * outline.semi_axes().1 >= GAP_MINOR;
-    if large { Strip::of(outline, kept, limits::SHALLOW * blur) } else { None }
 }
 
 /// What measuring needs besides the outline; scratch is reused.
@@ -213,6 +205,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             code_family: None,
             code_candidates: Vec::new(),
             inner: None,
+            occluded: false,
             quality: Quality {
                 fit_rms,
                 noise: surround.noise,
@@ -291,33 +284,25 @@ impl<'a, T: Sample> Measure<'a, T> {
         multiplies: bool,
     ) -> Result<(fit::Fit, Surround), Reason> {
         let surround = Surround { outer: outer.min(found.surround.outer), ..found.surround };
-        let whole = found.kept.iter().all(|kept| *kept);
         let region = PixelRegion {
             outline: found.ellipse.outline,
             half_band: half_band(found.blur),
             surround: &surround,
             light: [0.0; 2],
             multiplies,
-            kept: &found.kept,
-            whole,
-            strip: strip(&found.ellipse.outline, &found.kept, found.blur),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
             quantum: self.levels.quantum,
             developed: self.levels.developed,
-            shape: if whole { found.ellipse.rms } else { 0.0 },
+            shape: found.ellipse.rms,
             prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);
         let (outline, blur, lit) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
-        let all = vec![true; edge::ray_count(&outline)];
-        let kept = if whole { &all } else { &found.kept };
-        let mut surround = self.surround(&outline, blur, kept)?;
+        let mut surround = self.surround(&outline, blur, &vec![true; edge::ray_count(&outline)])?;
         (surround.contrast, surround.outer) = (lit.contrast, outer.min(surround.outer));
-        let strip = strip(&outline, kept, blur);
         let light = lit.light();
-        let last =
-            PixelRegion { outline, half_band: half_band(blur), surround: &surround, light, kept, strip, ..region };
+        let last = PixelRegion { outline, half_band: half_band(blur), surround: &surround, light, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;
@@ -326,10 +311,6 @@ impl<'a, T: Sample> Measure<'a, T> {
             let narrow = Surround { outer: gap.min(surround.outer), ..surround };
             let last = PixelRegion { surround: &narrow, ..last };
             fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
-        }
-        let [uu, _, vv] = fit.covariance;
-        if !whole && uu.max(vv) > limits::UNTOLD.powi(2) {
-            return Err(Reason::Occluded);
         }
         let (a, b) = fit.outline.semi_axes();
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };

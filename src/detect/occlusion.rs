@@ -2,83 +2,103 @@
 //!
 //! An occluder draws the edges of its side inwards, and an ellipse through all edges gives way to it by a few tenths of a pixel:
 //! neither the outline nor its scatter shows what is wrong, only the fit of the picture does. So the ellipse is laid through
-//! the edges outside of every sector in turn, and the one that leaves the least scatter says which sector is occluded. What
-//! stands up to all tests without it is measured without it; what does not is reported as occluded, with its place.
+//! the edges outside of every sector in turn, and the one that leaves the least scatter says which sector is occluded. That ellipse is
+//! reported as an occluded target: no fit of the picture is better, since nothing tells the light of what lies before the rim.
 
-use super::acceptance::levels::{FAINT, UNEVEN};
-use super::acceptance::occlusion::{CLEAR, EVEN, FITTING, SECTORS};
-use super::acceptance::outline::{GAP_MINOR, HIDDEN, SMALL_GAP};
+use super::acceptance::levels::FAINT;
+use super::acceptance::occlusion::{CLEAR, EVEN, PULLED, SECTORS};
+use super::acceptance::outline as limits;
+use super::acceptance::outline::{HIDDEN, SMALL_GAP};
 use super::acceptance::partial::SMALLEST;
 use super::acceptance::quick_test::OCCLUDED;
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
 use super::edges::edge;
 use super::edges::ellipse_fit::{self, EllipseFit, Start};
 use super::edges::quality;
-use super::edges::quick_test::{self, DotLevels};
+use super::edges::quick_test;
 use super::edges::sectors;
 use super::edges::surround;
 use super::ellipse::outline::Outline;
 use super::measure::confirm::{NEAR, NEARBY, undisturbed};
 use super::measure::{Measure, PreliminaryTarget};
+use crate::detection::{Polarity, Quality, Target};
 use crate::image::Sample;
 
-/// Reason why an occluded outline gives no target.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Occlusion {
-    /// It is not the outline of a target.
-    NoTarget,
-    /// Possibly a target, too much occluded to be measured.
-    NotMeasurable(Outline),
-}
-
 impl<T: Sample> Measure<'_, T> {
-    /// Edges, ellipse and annulus of a target with one occluded sector.
-    pub fn occluded_target(&mut self, start: &Outline, bright: bool) -> Result<PreliminaryTarget, Occlusion> {
+    /// A target with one occluded sector: the ellipse through its other edges; `None` if there is none.
+    pub fn occluded_target(&mut self, start: &Outline, bright: bool) -> Option<Target> {
         let (a, b) = start.semi_axes();
         let large = a < self.plane.width.min(self.plane.height) as f64;
         if !start.is_proper() || !large || 2.0 * b < SMALLEST {
-            return Err(Occlusion::NoTarget);
+            return None;
         }
-        quick_test::stands_out(&self.plane, &self.levels, start, bright, OCCLUDED, OCCLUDED)
-            .map_err(|_| Occlusion::NoTarget)?;
-        let (sector, rough) = self.sector(start, bright).ok_or(Occlusion::NoTarget)?;
+        quick_test::stands_out(&self.plane, &self.levels, start, bright, OCCLUDED, OCCLUDED).ok()?;
+        let (sector, rough) = self.sector(start, bright)?;
         let outline = rough.outline;
         let b = outline.semi_axes().1;
-        self.size_allows(&outline).and_then(|()| self.has_room(&outline)).map_err(|_| Occlusion::NoTarget)?;
-        let count = edge::ray_count(&outline);
-        self.search(&outline, bright, (0.15 * b).clamp(2.0, 6.0), count, SHARP);
-        let sector = self.narrowed(sector, &outline).ok_or(Occlusion::NoTarget)?;
+        self.size_allows(&outline).and_then(|()| self.has_room(&outline)).ok()?;
+        self.search(&outline, bright, (0.15 * b).clamp(2.0, 6.0), edge::ray_count(&outline), SHARP);
         self.remove_sector(&sector);
-        let ellipse = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Occlusion::NoTarget)?;
+        let ellipse = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(NEAR))?;
         let outline = ellipse.outline;
         if ellipse.occluded > HIDDEN {
-            return Err(Occlusion::NoTarget);
+            return None;
         }
-        let missing: Vec<bool> = (0..count).map(|k| self.edges.is_kept(k)).collect();
         let strength = self.strength();
-        let kept = undisturbed(&self.edges, &ellipse, SHARP);
-        let around =
-            |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Occlusion::NoTarget);
+        let kept = undisturbed(&self.edges);
+        let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY);
         let rough = around(SHARP)?;
         let blur = blur::of(strength, rough.contrast.abs());
         if blur > DEFOCUSED {
-            return Err(Occlusion::NoTarget);
+            return None;
         }
         let surround = if blur > BLURRED { around(blur)? } else { rough };
         let signed = if bright { surround.contrast } else { -surround.contrast };
         let noise = self.noise(&surround);
         let blur = blur::of(strength, signed);
         let scatter = quality::expected_scatter(b, &self.levels, noise, signed, quality::steepest(blur));
-        if !(signed > FAINT * noise && ellipse.rms < CLEAR * scatter) {
-            return Err(Occlusion::NoTarget);
+        // texture around is no background to see a part of a rim against
+        if !(signed > FAINT * noise.max(surround.noise) && ellipse.rms < CLEAR * scatter) {
+            return None;
         }
-        let kept = undisturbed(&self.edges, &ellipse, blur);
-        let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
-        let foreign = quick_test::unexplained(&self.plane, &outline, &missing, levels) <= UNEVEN;
-        if !foreign || surround.uneven > UNEVEN || 2.0 * b < GAP_MINOR {
-            return Err(Occlusion::NotMeasurable(outline));
-        }
-        Ok(PreliminaryTarget { ellipse, surround, kept, blur, strength, bright, refined: false })
+        self.by_its_edges(&PreliminaryTarget { ellipse, surround, kept, blur, strength, bright, refined: false })
+    }
+
+    /// The target as its edges show it.
+    fn by_its_edges(&self, found: &PreliminaryTarget) -> Option<Target> {
+        let (ellipse, outline) = (&found.ellipse, &found.ellipse.outline);
+        let (a, b, angle) = outline.axes();
+        let scatter = ellipse.rms.max(limits::TOLERANCE / limits::SIGMAS).powi(2);
+        let cofactors = ellipse.normal.cholesky()?.inverse();
+        // an occluder's light on the edges beside it moves them all to one side, of which their scatter shows nothing
+        let sigma = |i: usize| (scatter * cofactors[(i, i)] + PULLED * PULLED).sqrt();
+        Some(Target {
+            id: 0,
+            u: outline.u,
+            v: outline.v,
+            sigma_u: sigma(0),
+            sigma_v: sigma(1),
+            covariance_uv: scatter * cofactors[(0, 1)],
+            major: 2.0 * a,
+            minor: 2.0 * b,
+            angle,
+            contrast: found.surround.contrast.abs(),
+            polarity: if found.bright { Polarity::Bright } else { Polarity::Dark },
+            code: None,
+            code_family: None,
+            code_candidates: Vec::new(),
+            inner: None,
+            occluded: true,
+            quality: Quality {
+                fit_rms: ellipse.rms,
+                noise: found.surround.noise,
+                edge_width: found.blur,
+                saturated: self.saturated(outline),
+                roundness: b / a,
+                occluded: ellipse.occluded,
+                ..Quality::default()
+            },
+        })
     }
 
     /// The sector without which the edges scatter least, as shares of the parameter, and the ellipse through the others.
@@ -108,21 +128,6 @@ impl<T: Sample> Measure<'_, T> {
             }
         }
         best.map(|(_, sector, fit)| (sector, fit))
-    }
-
-    /// The part of a sector in which edges do not fit an outline that the others have; `None` if all fit.
-    fn narrowed(&self, [from, to]: [f64; 2], outline: &Outline) -> Option<[f64; 2]> {
-        let count = self.edges.len();
-        let ray = |turn: f64| (turn * count as f64).ceil() as usize;
-        let off = |k: &usize| {
-            let k = k % count;
-            let [x, y] = self.edges.place(k);
-            self.edges.strength[k] <= 0.0 || outline.distance(x, y).abs() > FITTING
-        };
-        let rays = ray(from)..ray(to);
-        let (first, last) = (rays.clone().find(off)?, rays.rev().find(off)?);
-        let turn = |k: usize| k as f64 / count as f64;
-        Some([turn(first), turn(last + 1)])
     }
 
     /// Removes the edges of a sector.

@@ -4,13 +4,12 @@ use super::acceptance::size::BLOB_SMALL;
 use super::acceptance::small_targets::{ENOUGH, NOISY_RIMS};
 use super::code;
 use super::measure::Measure;
-use super::occlusion::Occlusion;
 use super::outline::Outline;
 use super::picture::noise::GreyStatistics;
 use super::rendered::noise_autocorrelation::{NoiseAutocorrelation, NoiseProducts};
 use super::search::blob::NoBlob;
 use super::search::tested_outlines::TestedOutlines;
-use super::search::{self, Blobs, Candidate, Hidden};
+use super::search::{self, Blobs, Candidate};
 use super::small_targets::{self, CommonProperties, ExpectedShape};
 use crate::detection::{DetectOptions, Detection, Polarity, Reason, Target};
 use crate::image::{Sample, SampleView};
@@ -25,15 +24,10 @@ pub(super) struct Pass {
     pub colours: Vec<([f64; 2], NoiseProducts)>,
     /// Outlines that were rejected when tested alone.
     pub doubtful: Vec<Outline>,
+    /// Targets of which something hides a part: what nothing else is found at is reported.
+    pub occluded: Vec<Target>,
     /// Whether its pixels were taken to share their noise.
     pub coloured: bool,
-}
-
-/// What a picture that was made of another one shows of that one's targets: times their contrast, and blurred by so many pixels.
-#[derive(Clone, Copy)]
-pub(super) struct Soft {
-    pub scale: f64,
-    pub blur: f64,
 }
 
 impl Pass {
@@ -61,16 +55,17 @@ impl Pass {
     }
 }
 
-/// One pass: what is found beyond the targets that are known.
+/// One pass: what is found beyond the targets that are known. `soft`: of a picture that was made of another one, the sigma in pixels of the mean
+/// that made it; what something hides in part is looked for in the other one.
 pub(super) fn pass<T: Sample>(
     plane: SampleView<T>,
     levels: GreyStatistics,
     options: &DetectOptions,
     coloured: bool,
-    soft: Option<Soft>,
+    soft: Option<f64>,
     known: &[Target],
 ) -> Pass {
-    let blobs = search::search(&plane, &levels, options, Hidden::Clear);
+    let blobs = search::search(&plane, &levels, options, soft.is_none());
     let mut tested = TestedOutlines::new(plane.width, plane.height, code::have_spots(options.codes));
     known.iter().for_each(|target| tested.know(target));
     tested.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
@@ -83,7 +78,7 @@ pub(super) fn pass<T: Sample>(
     }
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = coloured;
-    measure.work.mean = soft.map_or(0.0, |soft| soft.blur);
+    measure.work.mean = soft.unwrap_or_default();
     let (mut colours, mut uneven) = (Vec::new(), Vec::new());
     let mut doubtful: Vec<Outline> = Vec::new();
     let mut occluded: Vec<Candidate> = Vec::new();
@@ -108,30 +103,12 @@ pub(super) fn pass<T: Sample>(
         }
     }
     occluded.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
-    // what is known is certain, what was found beside it is judged by it later
-    let clear = match soft {
-        Some(soft) if known.len() >= ENOUGH => are_clear(&levels, known, soft),
-        _ => are_clear(&levels, &tested.targets, Soft { scale: 1.0, blur: 0.0 }),
-    };
-    if !clear {
-        let faint = search::search(&plane, &levels, options, Hidden::Faint);
-        occluded.extend(faint.into_iter().flat_map(|blobs| blobs.partial));
-    }
+    let mut hidden = Vec::new();
     for Candidate { outline, bright } in &occluded {
         if !tested.is_free(outline) {
             continue;
         }
-        match measure.occluded_target(outline, *bright) {
-            Ok(found) => match measure.finish(&found, options.method) {
-                Ok(target) => {
-                    colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-                    tested.reconsider(target, *bright);
-                }
-                Err(_) => tested.hide(&found.ellipse.outline),
-            },
-            Err(Occlusion::NotMeasurable(outline)) => tested.hide(&outline),
-            Err(Occlusion::NoTarget) => {}
-        }
+        hidden.extend(measure.occluded_target(outline, *bright));
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
@@ -158,7 +135,7 @@ pub(super) fn pass<T: Sample>(
     }
     let grounds = std::mem::take(&mut tested.grounds);
     let coloured = measure.work.coloured;
-    Pass { detection: tested.finish(), grounds, colours, doubtful, coloured }
+    Pass { detection: tested.finish(), grounds, colours, doubtful, occluded: hidden, coloured }
 }
 
 /// Multiplies the standard errors of a target.
@@ -186,12 +163,6 @@ fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -
         }
     }
     colours
-}
-
-/// Whether targets are enough, and most of them so clear that occluded ones of the same photo are seen above the lowest level.
-fn are_clear(levels: &GreyStatistics, targets: &[Target], Soft { scale, blur }: Soft) -> bool {
-    let is_clear = |t: &Target| search::is_clear(levels, scale * t.contrast.abs(), t.quality.edge_width.hypot(blur));
-    targets.len() >= ENOUGH && 2 * targets.iter().filter(|target| is_clear(target)).count() > targets.len()
 }
 
 /// The outline, as far as it is known, of something without a shape that may still be a target by what the others show.

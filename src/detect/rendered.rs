@@ -22,7 +22,6 @@ mod residual_covariance;
 mod scatter;
 mod shape;
 mod sketch;
-pub(crate) mod strip;
 
 use wide::f32x4;
 

@@ -10,7 +10,6 @@
 pub(crate) mod blob;
 mod bulge;
 mod component;
-mod halves;
 mod partial;
 mod scan;
 pub(crate) mod tested_outlines;
@@ -19,7 +18,6 @@ use std::collections::HashSet;
 
 use self::blob::{BlobLimits, NoBlob};
 use self::component::{Chord, Linker};
-use self::halves::Parts;
 use self::scan::Edge;
 use super::acceptance::picture::{QUARTERED, SEARCHED, STRONG};
 use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
@@ -48,20 +46,8 @@ pub(crate) struct Blobs {
     pub unlike: Vec<NoBlob>,
     pub too_small: usize,
     pub too_large: usize,
-    /// Candidates for parts of a divided target.
-    parts: Parts,
     /// Whether occluded ones are looked for.
     hidden: bool,
-}
-
-/// Which of the targets that something covers in part are looked for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Hidden {
-    None,
-    /// Those whose edges reach above the lowest level: most of what has no shape is on the lowest.
-    Clear,
-    /// Those of the lowest level; nothing else is of use then.
-    Faint,
 }
 
 /// Levels of contrast, each three times the one below, up to the strong ones.
@@ -93,21 +79,14 @@ fn thresholds(lowest: f64, range: f64) -> (Vec<u32>, usize) {
     (all, strong)
 }
 
-/// Whether targets of this contrast and blur have edges that [`Hidden::Clear`] sees, as have fainter ones of the same photo.
-pub(crate) fn is_clear(levels: &GreyStatistics, contrast: f64, blur: f64) -> bool {
-    let [_, second, ..] = thresholds(threshold(levels), levels.range).0[..] else { return true };
-    // what an edge rises by over three pixels, its own width included
-    let rise = contrast * libm::erf(1.5 / (2.0 * (blur * blur + 1.0 / 12.0)).sqrt());
-    rise > f64::from(second)
-}
-
 /// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
-/// edges come first, then those of the levels that are shares of the range, those of the quartered picture last.
+/// edges come first, then those of the levels that are shares of the range, those of the quartered picture last. `hidden`: whether targets
+/// that something hides in part are looked for, whose edges reach above the lowest level: most of what has no shape is on the lowest.
 pub(crate) fn search<T: Sample>(
     plane: &SampleView<T>,
     levels: &GreyStatistics,
     options: &DetectOptions,
-    hidden: Hidden,
+    hidden: bool,
 ) -> Vec<Blobs> {
     let limits = BlobLimits {
         min_diameter: options.min_diameter,
@@ -117,10 +96,7 @@ pub(crate) fn search<T: Sample>(
         height: plane.height,
         step: 2,
     };
-    let look = |outline: &Outline, bright| match hidden {
-        Hidden::Faint => Err(Reason::NotAnEllipse),
-        _ => quick_test::first(plane, levels, outline, bright),
-    };
+    let look = |outline: &Outline, bright| quick_test::first(plane, levels, outline, bright);
     let new = |lowest, limits| LevelScan::new(thresholds(lowest, levels.range), options.polarity, limits, hidden);
     let mut whole = new(threshold(levels), limits);
     let limits = BlobLimits {
@@ -197,10 +173,10 @@ struct Level {
 
 impl LevelScan {
     fn new(
-        (mut thresholds, mut strong): (Vec<u32>, usize),
+        (thresholds, strong): (Vec<u32>, usize),
         polarity: PolarityChoice,
         limits: BlobLimits,
-        hidden: Hidden,
+        hidden: bool,
     ) -> Self {
         let wanted: &[bool] = match polarity {
             PolarityChoice::Auto => &[true, false],
@@ -209,21 +185,10 @@ impl LevelScan {
         };
         let rows = (BLOB_LARGE * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
         let single = thresholds.len() == 1;
-        if hidden == Hidden::Faint {
-            thresholds.truncate(1);
-            strong = 0;
-        }
         let levels = thresholds.into_iter().enumerate().map(|(k, threshold)| Level {
             threshold,
             linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
-            blobs: Blobs {
-                hidden: match hidden {
-                    Hidden::None => false,
-                    Hidden::Clear => k > 0 || single,
-                    Hidden::Faint => true,
-                },
-                ..Blobs::default()
-            },
+            blobs: Blobs { hidden: hidden && (k > 0 || single), ..Blobs::default() },
         });
         Self { limits, levels: levels.collect(), strong, edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
     }
@@ -250,8 +215,6 @@ impl LevelScan {
             for (bright, linker) in &mut level.linkers {
                 linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look, &mut tried));
             }
-            let parts = std::mem::take(&mut level.blobs.parts);
-            level.blobs.partial.extend(parts.joined(&limits));
             level.blobs
         });
         let mut all: Vec<Blobs> = all.collect();
@@ -302,7 +265,6 @@ impl Blobs {
                         None => {
                             let bulges = bulge::bulges(chain, limits).into_iter();
                             self.partial.extend(bulges.map(|outline| Candidate { outline, bright }));
-                            self.parts.take(chain, bright, limits);
                         }
                     }
                 }
@@ -313,46 +275,5 @@ impl Blobs {
                 }
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
-
-    use super::*;
-
-    #[test]
-    fn occluded_targets_too_faint_for_the_second_level_are_seen_on_the_lowest() {
-        let options = DetectOptions::default();
-        let levels = GreyStatistics {
-            noise: 0.5,
-            range: 200.0,
-            saturation: 255.0,
-            stairs: false,
-            quantum: 1.0,
-            developed: false,
-        };
-        let second = thresholds(threshold(&levels), levels.range).0[1];
-        // a disc of which a bar covers a sixth on the right
-        let seen = |contrast: f64| {
-            let sample = |k: usize| {
-                let [x, y] = [(k % 120) as f64 + 0.5 - 60.3, (k / 120) as f64 + 0.5 - 59.6];
-                let share = (20.5 - x.hypot(y)).clamp(0.0, 1.0);
-                (if (13.0..24.0).contains(&x) { 240.0 } else { 200.0 - contrast * share }).round() as u8
-            };
-            let samples: Vec<u8> = (0..120 * 120).map(sample).collect();
-            [Hidden::None, Hidden::Clear, Hidden::Faint].map(|hidden| {
-                let blobs = search(&SampleView::new(120, 120, &samples), &levels, &options, hidden);
-                let is_it = |found: &&Candidate| (found.outline.u - 60.3).hypot(found.outline.v - 59.6) < 1.0;
-                blobs.iter().flat_map(|blobs| &blobs.partial).filter(is_it).count() > 0
-            })
-        };
-        let faint = f64::from(second) - 2.0;
-        assert_eq!(seen(faint), [false, false, true]);
-        assert!(!is_clear(&levels, faint, 0.5));
-        let clear = 2.0 * f64::from(second);
-        assert!(seen(clear)[1] && is_clear(&levels, clear, 0.5));
     }
 }

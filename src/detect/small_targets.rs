@@ -231,9 +231,6 @@ impl<T: Sample> Measure<'_, T> {
                 surround: &around,
                 light: [0.0; 2],
                 multiplies: true,
-                kept: &kept,
-                whole: true,
-                strip: None,
                 saturation: self.levels.saturation,
                 stairs: false,
                 quantum: self.levels.quantum,
@@ -275,6 +272,7 @@ impl<T: Sample> Measure<'_, T> {
             code_family: None,
             code_candidates: Vec::new(),
             inner: None,
+            occluded: false,
             quality: Quality {
                 fit_rms: fit.rms,
                 noise: around.noise,

@@ -58,7 +58,8 @@ fn explaining(photos: &[PhotoTargets]) -> (Vec<Family>, usize) {
 /// Points and observations of the coded targets, with the family that alone explains the rings of all photos together, or with
 /// the one that is asked for.
 ///
-/// A code that occurs more than once in a photo names none of its targets there. A point is listed once it has an
+/// A code that occurs more than once in a photo names none of its targets there, and that of a target which is occluded in part is asked
+/// for: it is the user's choice whether so rough a centre is of use. A point is listed once it has an
 /// observation, even a single one: the later steps report what is missing.
 pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
     let (families, rings) = explaining(photos);
@@ -102,6 +103,10 @@ pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
                 continue;
             };
             let point = code.to_string();
+            if target.occluded {
+                coded.doubtful.push(doubt(vec![point], Doubt::Occluded));
+                continue;
+            }
             if count[&code] > 1 {
                 coded.doubtful.push(doubt(vec![point], Doubt::DuplicateCode));
                 continue;
@@ -119,6 +124,15 @@ mod tests {
     use super::*;
     use crate::detection::{CodeCandidate, CodeNote};
     use crate::matching::target;
+    #[test]
+    fn a_code_of_an_occluded_target_is_asked_for() {
+        let seen = vec![target(10.0, 5.0, Some(7)), Target { occluded: true, ..target(30.0, 5.0, Some(8)) }];
+        let coded = name_coded(&[PhotoTargets { photo: "a".into(), targets: seen }], None);
+        assert_eq!(coded.observations.iter().map(|o| o.point.as_str()).collect::<Vec<_>>(), ["7"]);
+        let asked = coded.doubtful.iter().map(|d| (d.points.join(" "), d.reason)).collect::<Vec<_>>();
+        assert_eq!(asked, [("8".to_owned(), Doubt::Occluded)]);
+    }
+
     #[test]
     fn codes_name_targets_and_duplicates_are_doubtful() {
         let photo = |id: &str, codes: &[Option<u32>]| PhotoTargets {

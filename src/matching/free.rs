@@ -76,7 +76,8 @@ pub fn views<'a>(project: &Project, targets: &'a [PhotoTargets]) -> Vec<FreeTarg
         let Some(found) = by_photo.get(photo.id.as_str()) else { continue };
         let taken = named.get(photo.id.as_str()).map_or(&[][..], Vec::as_slice);
         let mut free: Vec<Free> = Vec::new();
-        for (k, t) in found.targets.iter().enumerate() {
+        // what is occluded in part takes no part unless a user names it
+        for (k, t) in found.targets.iter().enumerate().filter(|(_, t)| !t.occluded) {
             let near = (0.25 * t.minor).max(1.0);
             if taken.iter().any(|[u, v]| (u - t.u).hypot(v - t.v) < near) {
                 continue;

@@ -41,6 +41,7 @@ fn target(u: f64) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: Quality::default(),
     }
 }

@@ -3,11 +3,11 @@
 //! Three numbers separate circular targets from letters, corners and texture that happen to carry an ellipse: the rms of
 //! the edge points from the ellipse, against what noise alone would do to them; the part of the residuals of the rendered
 //! fit that noise does not explain and that differs around the rim, as a share of the contrast (a lens does the same all
-//! around); and the longest gap in the outline. A gap counts as an occluder in front of a target only if the rest is
-//! as good as noise allows, since the bowl of a letter is an ellipse with a gap too.
+//! around); and the longest gap in the outline. What has a gap is measured by nothing but its edges ([`occlusion`](crate::detect::occlusion)):
+//! the bowl of a letter is an ellipse with a gap, too.
 
 use super::ellipse_fit::EllipseFit;
-use crate::detect::acceptance::levels::{FAINT, SHAPELY};
+use crate::detect::acceptance::levels::SHAPELY;
 use crate::detect::acceptance::{fit, outline as limits};
 use crate::detect::picture::noise::GreyStatistics;
 
@@ -38,15 +38,14 @@ fn gap(ellipse: &EllipseFit) -> f64 {
     ellipse.gap.max(limits::SCATTERED * ellipse.occluded)
 }
 
-/// Whether the outline is large enough for the gap that it has.
-pub(crate) fn size_allows(ellipse: &EllipseFit) -> bool {
-    gap(ellipse) <= limits::SMALL_GAP || 2.0 * ellipse.outline.semi_axes().1 >= limits::GAP_MINOR
+/// Whether nearly all of the outline is seen.
+pub(crate) fn is_whole(ellipse: &EllipseFit) -> bool {
+    gap(ellipse) <= limits::SMALL_GAP
 }
 
 /// Whether that may still come true of a first outline from few rays.
-pub(crate) fn size_may_allow(ellipse: &EllipseFit) -> bool {
-    let minor = 2.0 * ellipse.outline.semi_axes().1;
-    gap(ellipse) <= limits::GAP_FIRST * limits::SMALL_GAP || minor >= limits::GAP_MINOR_FIRST * limits::GAP_MINOR
+pub(crate) fn may_be_whole(ellipse: &EllipseFit) -> bool {
+    gap(ellipse) <= limits::GAP_FIRST * limits::SMALL_GAP
 }
 
 /// Whether noise leaves enough of the shape to tell a target by.
@@ -62,8 +61,7 @@ pub(crate) fn outline_allows(
     contrast: f64,
     spread: f64,
 ) -> bool {
-    let gap_allows = gap(ellipse) <= limits::SMALL_GAP || contrast > FAINT * noise;
-    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, levels, noise, contrast, spread) < limits::SCATTER
+    is_whole(ellipse) && edge_ratio(ellipse, levels, noise, contrast, spread) < limits::SCATTER
 }
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
@@ -83,5 +81,4 @@ pub(crate) fn is_target(
     let limit = if levels.stairs { fit::MISFIT_STAIRS } else { limit };
     let edge = edge_ratio(ellipse, levels, noise, contrast, spread);
     edge * edge + (misfit / limit).powi(2) < fit::TOGETHER
-        && (gap(ellipse) <= limits::SMALL_GAP || misfit < fit::MISFIT_GAP)
 }

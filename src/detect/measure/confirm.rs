@@ -3,7 +3,7 @@
 use super::{Measure, PreliminaryTarget};
 use crate::detect::acceptance::levels::{CONTRAST, DISTURBED, FAINT, STROKE, UNEVEN};
 use crate::detect::acceptance::outline as limits;
-use crate::detect::acceptance::quick_test::{MISSING, MISSING_WHOLE, OPEN_MEASURED};
+use crate::detect::acceptance::quick_test::{MISSING_WHOLE, OPEN_MEASURED};
 use crate::detect::acceptance::size::{EDGES_SMALL, ROOM};
 use crate::detect::edges::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
 use crate::detect::edges::edge::{self, Edges};
@@ -21,29 +21,11 @@ pub(in crate::detect) const NEARBY: u32 = 6;
 /// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
 pub(in crate::detect) const NEAR: f64 = 0.005;
 
-/// Which rays count: a single edge out of place is chance, unless the others are even and it is far off, like that of a cable that only
-/// one ray meets; more in a row are something in front of the target. Its own edge is as blurred as the target's: beside it the rim is
-/// left out as far as that blur reaches.
-pub(in crate::detect) fn undisturbed(edges: &Edges, ellipse: &EllipseFit, blur: f64) -> Vec<bool> {
+/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
+pub(in crate::detect) fn undisturbed(edges: &Edges) -> Vec<bool> {
     let count = edges.len();
     let kept = |k: usize| edges.is_kept(k % count);
-    let outline = &ellipse.outline;
-    let even = ellipse.rms <= limits::EVEN;
-    let is_gone = |k: &usize| {
-        let [x, y] = edges.place(*k);
-        even && !edges.is_kept(*k) && (edges.strength[*k] <= 0.0 || outline.distance(x, y).abs() > limits::GONE)
-    };
-    let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
-    let margin = ((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize;
-    let mut all = good.clone();
-    let occluded = (0..count).filter(|k| (0..limits::OCCLUDED).all(|i| !good[(k + i) % count]));
-    let runs = occluded.map(|k| (k, limits::OCCLUDED)).chain((0..count).filter(is_gone).map(|k| (k, 1)));
-    for (k, run) in runs {
-        for i in 0..run + 2 * margin {
-            all[(k + count + i - margin.min(count)) % count] = false;
-        }
-    }
-    all
+    (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect()
 }
 
 /// Rms of edge points from an outline of semi-minor axis b beyond which it is none, in pixels.
@@ -51,15 +33,10 @@ fn largest_rms(b: f64) -> f64 {
     limits::RMS[0] + limits::RMS[1] * b
 }
 
-/// Gate: enough of the outline is seen.
-fn is_seen(ellipse: &EllipseFit) -> Result<(), Reason> {
-    if ellipse.occluded > limits::HIDDEN { Err(Reason::Occluded) } else { Ok(()) }
-}
-
-/// Gate: edges lie on an ellipse that is large enough for the gaps it has; out of focus they are judged once they are refined.
+/// Gate: edges lie on an ellipse, all around; out of focus they are judged once they are refined.
 fn is_ellipse(ellipse: &EllipseFit, focus: f64) -> Result<(), Reason> {
     let scattered = ellipse.rms > largest_rms(ellipse.outline.semi_axes().1) && focus <= SOFT;
-    if scattered || !quality::size_allows(ellipse) { Err(Reason::NotAnEllipse) } else { Ok(()) }
+    if scattered || !quality::is_whole(ellipse) { Err(Reason::NotAnEllipse) } else { Ok(()) }
 }
 
 impl<T: Sample> Measure<'_, T> {
@@ -68,7 +45,6 @@ impl<T: Sample> Measure<'_, T> {
         let (ellipse, focus) = self.followed(start, bright)?;
         self.size_allows(&ellipse.outline)?;
         self.has_room(&ellipse.outline)?;
-        is_seen(&ellipse)?;
         is_ellipse(&ellipse, focus)?;
         let mut found = self.surrounded(ellipse, bright, focus)?;
         self.has_contrast(&found)?;
@@ -137,14 +113,10 @@ impl<T: Sample> Measure<'_, T> {
 
     /// Gate after the first round: what the second one decides, with room for what it may change.
     fn may_be_target(&self, found: &EllipseFit, bright: bool) -> Result<(), Reason> {
-        if found.occluded > limits::HIDDEN + limits::HIDDEN_FIRST {
-            return Err(Reason::Occluded);
-        }
-        if !quality::size_may_allow(found) {
+        if !quality::may_be_whole(found) {
             return Err(Reason::NotAnEllipse);
         }
-        let missing = if found.gap <= limits::SMALL_GAP { MISSING_WHOLE } else { MISSING };
-        quick_test::stands_out(&self.plane, &self.levels, &found.outline, bright, missing, OPEN_MEASURED)
+        quick_test::stands_out(&self.plane, &self.levels, &found.outline, bright, MISSING_WHOLE, OPEN_MEASURED)
     }
 
     /// Gate: it is as round and as large as it is asked to be.
@@ -175,7 +147,7 @@ impl<T: Sample> Measure<'_, T> {
     /// The ellipse with what lies around it and its blur.
     fn surrounded(&mut self, ellipse: EllipseFit, bright: bool, focus: f64) -> Result<PreliminaryTarget, Reason> {
         let outline = ellipse.outline;
-        let kept = undisturbed(&self.edges, &ellipse, blur::rough(focus));
+        let kept = undisturbed(&self.edges);
         let strength = self.strength();
         let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder);
         let rough = around(blur::rough(focus))?;
@@ -210,20 +182,17 @@ impl<T: Sample> Measure<'_, T> {
         let (count, profile) = (self.edges.len(), blur::profile(&outline, &found.surround, found.strength, found.blur));
         edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
         found.ellipse = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
-        found.kept = undisturbed(&self.edges, &found.ellipse, found.blur);
+        found.kept = undisturbed(&self.edges);
         found.refined = true;
-        is_seen(&found.ellipse)
+        Ok(())
     }
 
-    /// Gate: no stroke of its level around a faint one, and what is missing of the outline has something in front of it.
+    /// Gate: no stroke of its level around a faint one.
     fn is_no_letter(&self, found: &PreliminaryTarget) -> Result<(), Reason> {
-        let PreliminaryTarget { ellipse, surround, kept, .. } = found;
+        let PreliminaryTarget { ellipse, surround, .. } = found;
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
         let faint = found.signed() < FAINT * self.noise(surround);
-        if faint && quick_test::stroke(&self.plane, &ellipse.outline, levels) > STROKE
-            || ellipse.occluded > UNEVEN
-                && quick_test::unexplained(&self.plane, &ellipse.outline, kept, levels) > UNEVEN
-        {
+        if faint && quick_test::stroke(&self.plane, &ellipse.outline, levels) > STROKE {
             return Err(Reason::NotAnEllipse);
         }
         Ok(())

@@ -9,7 +9,6 @@ use wide::{f32x4, f32x8};
 use super::flats::Flats;
 use super::lit::Lit;
 use super::scatter::{Lights, Rim};
-use super::strip::Strip;
 use crate::detect::edges::surround::Surround;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
@@ -35,12 +34,6 @@ pub(crate) struct PixelRegion<'a> {
     pub light: [f64; 2],
     /// Whether it multiplies the levels ([`lit`](super::lit)).
     pub multiplies: bool,
-    /// One for each ray of the outline: false if the rim is occluded.
-    pub kept: &'a [bool],
-    /// Whether all of them are true.
-    pub whole: bool,
-    /// The strip across it, if the edges show one.
-    pub strip: Option<Strip>,
     /// Grey level from which a sample counts as saturated.
     pub saturation: f64,
     /// Whether the edges are aliased.
@@ -191,8 +184,7 @@ impl Band {
             let samples = &plane.row(line)[left..left + length];
             for (k, (((grey, kept), (x, y)), sample)) in levels.zip(places).zip(samples).enumerate() {
                 let level = sample.level() as f32;
-                let counts = level < saturation && (region.whole || region.counts(left + k, line));
-                let mask = if counts { 1.0 } else { 0.0 };
+                let mask = if level < saturation { 1.0 } else { 0.0 };
                 (*grey, *x, *y, *kept) = (mask * level, mask * (first + k as f32), mask * dy, mask);
             }
             start += length;
@@ -440,25 +432,6 @@ impl Band {
         let [outline] = products([&self.residual], [u, v, p, q, r, s]);
         let [levels] = products([&self.residual], [share, kept, x, y]);
         Unknowns::from_iterator(outline.map(|sum| sum * contrast).into_iter().chain(levels))
-    }
-}
-
-impl PixelRegion<'_> {
-    /// Whether the pixel lies where the rim is not occluded.
-    pub fn counts(&self, x: usize, y: usize) -> bool {
-        if self.whole {
-            return true;
-        }
-        let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
-        if self.strip.is_some_and(|strip| strip.hides(x, y)) {
-            return false;
-        }
-        let [c, s] = self.outline.normalised(x, y);
-        let turn = s.atan2(c) / std::f64::consts::TAU * self.kept.len() as f64;
-        // a ray's neighbours share its edge: both must count
-        let count = self.kept.len() as i64;
-        let at = |k: i64| self.kept[k.rem_euclid(count) as usize];
-        at(turn.floor() as i64) && at(turn.floor() as i64 + 1)
     }
 }
 

@@ -75,7 +75,10 @@ pub(super) fn read(
     board: &Board,
 ) -> Result<BoardReading, UnnamedReason> {
     let of = |polarity: Polarity| {
-        let mine = move |k: &usize| targets[*k].polarity == polarity && targets[*k].code.is_none();
+        let mine = move |k: &usize| {
+            let target = &targets[*k];
+            target.polarity == polarity && target.code.is_none() && !target.occluded
+        };
         Pool::new(targets, (0..targets.len()).filter(mine))
     };
     let pools = [of(Polarity::Dark), of(Polarity::Bright)];

@@ -172,6 +172,7 @@ fn target(u: f64, v: f64, major: f64, minor: f64, angle: f64) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: Quality::default(),
     }
 }

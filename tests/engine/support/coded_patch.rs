@@ -151,6 +151,7 @@ impl CodedPatch {
             code_family: None,
             code_candidates: Vec::new(),
             inner: None,
+            occluded: false,
             quality: Quality { edge_width: self.blur, ..Quality::default() },
         }
     }

@@ -1,7 +1,7 @@
 //! Pictures under the conditions that a crew meets one at a time: something before the targets, a moved camera, coarse
 //! compression, drawings, light that the sensor cannot hold.
 
-use sightline::detection::{DetectOptions, Detection, Reason};
+use sightline::detection::{DetectOptions, Detection, Target};
 use sightline::image::{Grey, Samples};
 
 use super::painter::{Canvas, Spot, Uniform};
@@ -13,14 +13,16 @@ pub struct Condition {
     pub picture: fn(u64) -> (Grey, Vec<Spot>),
 }
 
-/// Targets that were not found, of which a detection says that something hides them.
-pub fn said_to_be_hidden(detection: &Detection, spots: &[Spot]) -> usize {
-    let missed = spots.iter().filter(|spot| {
-        let off = |u: f64, v: f64| (u - spot.u).hypot(v - spot.v);
-        detection.targets.iter().all(|target| off(target.u, target.v) > 1.0 + 0.1 * spot.b)
-            && detection.rejected_blobs.iter().any(|no| no.reason == Reason::Occluded && off(no.u, no.v) < 0.5 * spot.b)
-    });
-    missed.count()
+/// Spots that are reported as occluded targets: their number, and the sum of the squares of their errors over their standard errors.
+pub fn occluded(detection: &Detection, spots: &[Spot]) -> (usize, f64) {
+    let off = |target: &Target, spot: &Spot| (target.u - spot.u).hypot(target.v - spot.v);
+    let of = |spot: &Spot| {
+        let target = detection.targets.iter().min_by(|a, b| off(a, spot).total_cmp(&off(b, spot)))?;
+        let [u, v] = [(target.u - spot.u) / target.sigma_u, (target.v - spot.v) / target.sigma_v];
+        (target.occluded && off(target, spot) < 1.0 + 0.1 * spot.b).then_some(u * u + v * v)
+    };
+    let all = spots.iter().filter_map(of).collect::<Vec<_>>();
+    (all.len(), all.iter().sum())
 }
 
 const SIZE: usize = 800;

@@ -40,6 +40,7 @@ pub fn target(id: u32, u: f64, v: f64) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: Default::default(),
     }
 }

@@ -155,11 +155,12 @@ fn named_marks(desk: Desk) -> Vec<Mark> {
         let (on_targets, free): (Vec<_>, Vec<_>) = here.partition(|o| o.target.is_some());
         let mut named: HashMap<Option<u32>, &Observation> = on_targets.into_iter().map(|o| (o.target, o)).collect();
         let doubtful = d.doubtful.iter().filter(|x| x.photo == photo).filter_map(|x| x.target).collect::<Vec<_>>();
-        let style = |o: Option<&Observation>, target: Option<u32>, selected: bool| match o {
+        let style = |o: Option<&Observation>, target: Option<u32>, selected: bool, occluded: bool| match o {
             _ if selected => Style::Selected,
             Some(o) if Some(&o.point) == point.as_ref() => Style::Selected,
             Some(o) if !o.enabled => Style::Rejected,
             _ if target.is_some_and(|id| doubtful.contains(&id)) => Style::Doubtful,
+            None if occluded => Style::Hidden,
             _ => Style::Measured,
         };
         let mut marks = Vec::new();
@@ -173,11 +174,11 @@ fn named_marks(desk: Desk) -> Vec<Mark> {
                 angle: t.angle,
                 label: o.map(|o| o.point.clone()),
                 strong: t.code.is_some(),
-                style: style(o, Some(t.id), chosen == Some(i)),
+                style: style(o, Some(t.id), chosen == Some(i), t.occluded),
             });
         }
         for o in named.into_values().chain(free) {
-            let style = style(Some(o), None, false);
+            let style = style(Some(o), None, false, false);
             let label = Some(o.point.clone());
             marks.push(Mark { u: o.u, v: o.v, major: 0.0, minor: 0.0, angle: 0.0, label, strong: false, style });
         }
@@ -195,6 +196,7 @@ fn doubt_words(desk: Desk) -> HashMap<String, String> {
                 Doubt::DuplicateCode => text::doubt_duplicate(&doubtful.photo),
                 Doubt::CodeFamily => text::doubt_code_family(&doubtful.photo),
                 Doubt::CodeUnclear => text::doubt_code_unclear(&doubtful.photo),
+                Doubt::Occluded => text::doubt_occluded(&doubtful.photo),
                 Doubt::Ambiguous => text::doubt_ambiguous(&doubtful.photo),
                 Doubt::Disagrees => text::doubt_disagrees(&doubtful.photo),
             };

@@ -16,6 +16,7 @@ fn reason(question: &Question) -> String {
         Doubt::DuplicateCode => text::doubt_duplicate(&question.photo),
         Doubt::CodeFamily => text::doubt_code_family(&question.photo),
         Doubt::CodeUnclear => text::doubt_code_unclear(&question.photo),
+        Doubt::Occluded => text::doubt_occluded(&question.photo),
         Doubt::Ambiguous => text::doubt_ambiguous(&question.photo),
         Doubt::Disagrees => text::doubt_disagrees(&question.photo),
     }

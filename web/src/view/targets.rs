@@ -97,6 +97,7 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         strong: t.code.is_some(),
         style: match t.id {
             id if Some(id) == chosen => Style::Selected,
+            _ if t.occluded => Style::Hidden,
             _ if !candidates(t, &rings).is_empty() => Style::Doubtful,
             _ => Style::Measured,
         },
@@ -296,6 +297,10 @@ pub fn TargetDetails() -> impl IntoView {
                             view! { <dt>{text::code_candidates}</dt><dd data-result="code-candidates">{words}</dd> }
                         })}
                         {t.quality.code_note.map(|note| view! { <dt>{text::code_not_read}</dt><dd data-result="code-note">{move || code_note(note)}</dd> })}
+                        {t.occluded.then(|| {
+                            let share = format::fixed(100.0 * t.quality.occluded, 0);
+                            view! { <dt>{text::reason_occluded}</dt><dd data-result="occluded">{move || text::occluded_share(&share)}</dd> }
+                        })}
                         {t.inner.map(|inner| {
                             let words = if inner.off_centre { text::inner_rim_off() } else { text::inner_rim_centred() };
                             let apart = format::fixed((inner.u - t.u).hypot(inner.v - t.v), 2);

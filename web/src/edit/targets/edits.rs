@@ -23,6 +23,7 @@ fn target(id: u32, u: f64) -> Target {
         code_family: None,
         code_candidates: Vec::new(),
         inner: None,
+        occluded: false,
         quality: Quality::default(),
     }
 }

@@ -23,6 +23,7 @@ declare! { names {
     doubt_duplicate(photo): "code read twice in photo {photo}";
     doubt_code_family(photo): "code family unknown in photo {photo}";
     doubt_code_unclear(photo): "code unclear in photo {photo}";
+    doubt_occluded(photo): "partly occluded in photo {photo}, so its centre is rough";
     doubt_ambiguous(photo): "several candidates in photo {photo}";
     doubt_disagrees(photo): "disagrees with the other rays in photo {photo}";
     one_ray: "in one photo only";

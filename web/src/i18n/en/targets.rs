@@ -123,6 +123,7 @@ declare! { targets {
     reason_saturated: "saturated";
     reason_at_border: "at the border";
     reason_occluded: "occluded";
+    occluded_share(share): "{share} % of its rim: measured by the rest, and used only if you name it";
     reason_code_ring: "part of a code ring";
     reason_no_fit: "no fit";
 } }

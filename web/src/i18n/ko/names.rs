@@ -21,6 +21,7 @@ translate! { Korean names {
     doubt_duplicate(photo): "사진 {photo}에서 코드가 두 번 읽힘";
     doubt_code_family(photo): "사진 {photo}의 코드 종류를 알 수 없음";
     doubt_code_unclear(photo): "사진 {photo}에서 코드가 뚜렷하지 않음";
+    doubt_occluded(photo): "사진 {photo}에서 일부가 가려져 중심이 정밀하지 않음";
     doubt_ambiguous(photo): "사진 {photo}에서 후보가 여럿";
     doubt_disagrees(photo): "사진 {photo}의 광선이 나머지와 맞지 않음";
     one_ray: "한 사진에만 있음";
