@@ -274,6 +274,8 @@ pub(crate) mod outline {
         SMALL: f64 = 5.0, Judged "the search knows the height of so few rows to two pixels only";
         /// Maximum rms distance of edges from an outline: pixels, and share of its semi-minor axis.
         RMS: [f64; 2] = [0.3, 0.03], Judged "above it no expected scatter justifies the outline";
+        /// Number of consecutive rays without a fitting edge where something lies on the rim.
+        DISTURBED: usize = 3, Judged "one edge out of place is chance, two in a row are seldom; without it, errors of discs with glare on the rim are 1.5 sigma";
         /// Maximum change of an outline with which its edges are not searched again.
         HEAD_ON: f64 = 0.4, Judged "rays still meet the rim nearly at right angles";
     }

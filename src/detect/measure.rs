@@ -284,25 +284,30 @@ impl<'a, T: Sample> Measure<'a, T> {
         multiplies: bool,
     ) -> Result<(fit::Fit, Surround), Reason> {
         let surround = Surround { outer: outer.min(found.surround.outer), ..found.surround };
+        let whole = found.kept.iter().all(|kept| *kept);
         let region = PixelRegion {
             outline: found.ellipse.outline,
             half_band: half_band(found.blur),
             surround: &surround,
             light: [0.0; 2],
             multiplies,
+            kept: &found.kept,
+            whole,
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
             quantum: self.levels.quantum,
             developed: self.levels.developed,
-            shape: found.ellipse.rms,
+            shape: if whole { found.ellipse.rms } else { 0.0 },
             prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);
         let (outline, blur, lit) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
-        let mut surround = self.surround(&outline, blur, &vec![true; edge::ray_count(&outline)])?;
+        let all = vec![true; edge::ray_count(&outline)];
+        let kept = if whole { &all } else { &found.kept };
+        let mut surround = self.surround(&outline, blur, kept)?;
         (surround.contrast, surround.outer) = (lit.contrast, outer.min(surround.outer));
         let light = lit.light();
-        let last = PixelRegion { outline, half_band: half_band(blur), surround: &surround, light, ..region };
+        let last = PixelRegion { outline, half_band: half_band(blur), surround: &surround, light, kept, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;

@@ -45,7 +45,7 @@ impl<T: Sample> Measure<'_, T> {
             return None;
         }
         let strength = self.strength();
-        let kept = undisturbed(&self.edges);
+        let kept = undisturbed(&self.edges, &outline, SHARP);
         let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY);
         let rough = around(SHARP)?;
         let blur = blur::of(strength, rough.contrast.abs());

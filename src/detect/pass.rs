@@ -95,7 +95,7 @@ pub(super) fn pass<T: Sample>(
             }
             Err(reason) => {
                 doubtful.push(*outline);
-                if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit | Reason::Occluded) {
+                if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit) {
                     occluded.push(*candidate);
                 }
                 tested.reject(*outline, *bright, reason);

@@ -231,6 +231,8 @@ impl<T: Sample> Measure<'_, T> {
                 surround: &around,
                 light: [0.0; 2],
                 multiplies: true,
+                kept: &kept,
+                whole: true,
                 saturation: self.levels.saturation,
                 stairs: false,
                 quantum: self.levels.quantum,

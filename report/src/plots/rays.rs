@@ -10,8 +10,6 @@ use crate::number::{count, fixed};
 
 /// Width of a class of angles, degrees.
 const CLASS: f64 = 10.0;
-/// Photos that a point's largest angle is sought among; more are thinned.
-const MOST: usize = 40;
 
 pub fn plots(context: &Context) -> Vec<Plot> {
     let mut plots = Vec::new();
@@ -64,21 +62,20 @@ fn angles(context: &Context) -> Option<Plot> {
     let mut all = Vec::new();
     for point in &a.points {
         let Some(centres) = rays.get(point.id.as_str()).filter(|c| c.len() > 1) else { continue };
-        let every = centres.len().div_ceil(MOST);
         let direction = |c: &[f64; 3]| {
             let d: [f64; 3] = std::array::from_fn(|k| c[k] - point.xyz[k]);
             let length = d[0].hypot(d[1]).hypot(d[2]).max(1e-300);
             d.map(|x| x / length)
         };
-        let directions: Vec<[f64; 3]> = centres.iter().step_by(every).map(direction).collect();
-        let mut largest = 0.0_f64;
+        let directions: Vec<[f64; 3]> = centres.iter().map(direction).collect();
+        // of the largest acute angle
+        let mut cosine = 1.0_f64;
         for (i, p) in directions.iter().enumerate() {
             for q in &directions[..i] {
-                let cosine = (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]).abs().min(1.0);
-                largest = largest.max(cosine.acos());
+                cosine = cosine.min((p[0] * q[0] + p[1] * q[1] + p[2] * q[2]).abs());
             }
         }
-        all.push(largest.to_degrees());
+        all.push(cosine.acos().to_degrees());
     }
     if all.is_empty() {
         return None;

@@ -21,11 +21,21 @@ pub(in crate::detect) const NEARBY: u32 = 6;
 /// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
 pub(in crate::detect) const NEAR: f64 = 0.005;
 
-/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
-pub(in crate::detect) fn undisturbed(edges: &Edges) -> Vec<bool> {
+/// Which rays count: a single edge out of place is chance, more in a row are something on the rim. Its own edge is as blurred as the
+/// target's: beside it the rim is left out as far as that blur reaches.
+pub(in crate::detect) fn undisturbed(edges: &Edges, outline: &Outline, blur: f64) -> Vec<bool> {
     let count = edges.len();
     let kept = |k: usize| edges.is_kept(k % count);
-    (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect()
+    let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
+    let is_disturbed = |k: &usize| (0..limits::DISTURBED).all(|i| !good[(k + i) % count]);
+    let margin = (((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize).min(count);
+    let mut all = good.clone();
+    for k in (0..count).filter(is_disturbed) {
+        for i in 0..limits::DISTURBED + 2 * margin {
+            all[(k + count + i - margin) % count] = false;
+        }
+    }
+    all
 }
 
 /// Rms of edge points from an outline of semi-minor axis b beyond which it is none, in pixels.
@@ -147,7 +157,7 @@ impl<T: Sample> Measure<'_, T> {
     /// The ellipse with what lies around it and its blur.
     fn surrounded(&mut self, ellipse: EllipseFit, bright: bool, focus: f64) -> Result<PreliminaryTarget, Reason> {
         let outline = ellipse.outline;
-        let kept = undisturbed(&self.edges);
+        let kept = undisturbed(&self.edges, &outline, blur::rough(focus));
         let strength = self.strength();
         let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder);
         let rough = around(blur::rough(focus))?;
@@ -182,7 +192,7 @@ impl<T: Sample> Measure<'_, T> {
         let (count, profile) = (self.edges.len(), blur::profile(&outline, &found.surround, found.strength, found.blur));
         edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
         found.ellipse = ellipse_fit::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
-        found.kept = undisturbed(&self.edges);
+        found.kept = undisturbed(&self.edges, &found.ellipse.outline, found.blur);
         found.refined = true;
         Ok(())
     }

@@ -34,6 +34,10 @@ pub(crate) struct PixelRegion<'a> {
     pub light: [f64; 2],
     /// Whether it multiplies the levels ([`lit`](super::lit)).
     pub multiplies: bool,
+    /// One for each ray of the outline: false where something lies on the rim.
+    pub kept: &'a [bool],
+    /// Whether all of them are true.
+    pub whole: bool,
     /// Grey level from which a sample counts as saturated.
     pub saturation: f64,
     /// Whether the edges are aliased.
@@ -184,7 +188,8 @@ impl Band {
             let samples = &plane.row(line)[left..left + length];
             for (k, (((grey, kept), (x, y)), sample)) in levels.zip(places).zip(samples).enumerate() {
                 let level = sample.level() as f32;
-                let mask = if level < saturation { 1.0 } else { 0.0 };
+                let counts = level < saturation && (region.whole || region.counts(left + k, line));
+                let mask = if counts { 1.0 } else { 0.0 };
                 (*grey, *x, *y, *kept) = (mask * level, mask * (first + k as f32), mask * dy, mask);
             }
             start += length;
@@ -432,6 +437,18 @@ impl Band {
         let [outline] = products([&self.residual], [u, v, p, q, r, s]);
         let [levels] = products([&self.residual], [share, kept, x, y]);
         Unknowns::from_iterator(outline.map(|sum| sum * contrast).into_iter().chain(levels))
+    }
+}
+
+impl PixelRegion<'_> {
+    /// Whether the pixel lies where nothing lies on the rim.
+    pub fn counts(&self, x: usize, y: usize) -> bool {
+        let [c, s] = self.outline.normalised(x as f64 + 0.5, y as f64 + 0.5);
+        let turn = s.atan2(c) / std::f64::consts::TAU * self.kept.len() as f64;
+        // a ray's neighbours share its edge: both must count
+        let count = self.kept.len() as i64;
+        let at = |k: i64| self.kept[k.rem_euclid(count) as usize];
+        at(turn.floor() as i64) && at(turn.floor() as i64 + 1)
     }
 }
 

@@ -151,7 +151,7 @@ pub(crate) fn fit<T: Sample>(
             rounds += 1;
             let count = work.band.drop_outliers(limit, 2.0 * state.blur + 1.0);
             anew = count > 0;
-            disturbed = count > 0;
+            disturbed = count > 0 && region.whole;
             dropped += count;
         }
         let right = work.right(&state, &flats);
@@ -192,7 +192,7 @@ pub(crate) fn fit<T: Sample>(
     let beyond = variance > limits::UNEXPLAINED * noise;
     // What a camera does to edges it does on either side alike, which moves no centre. Where the scale ends, along aliased edges and at drawn
     // edges, which no lens has softened, it depends on where the pixels lie.
-    let all_around = region.developed && (work.coloured || beyond);
+    let all_around = region.whole && region.developed && (work.coloured || beyond);
     let values = if all_around { work.band.take_profile(&state.outline, work.origin) } else { 0 };
     // a value takes the noise of a ring half a pixel wide, of which a mean has left that many times the variance
     let taken = values as f64 * (work.mean * std::f64::consts::PI.sqrt()).max(1.0);

@@ -66,7 +66,14 @@ impl LevelMoments {
     /// Number, sums of x, x², r and x r of the pixels that count, with x from the middle column and r the level less a whole
     /// number near the one that is expected there: for what is no outlier these sums are small.
     #[inline(always)]
-    fn sums<T: Sample>(samples: &[T], first: usize, y: usize, region: &PixelRegion, inside: bool) -> [i32; 5] {
+    fn sums<T: Sample>(
+        samples: &[T],
+        first: usize,
+        y: usize,
+        region: &PixelRegion,
+        inside: bool,
+        counts: impl Fn(usize) -> bool,
+    ) -> [i32; 5] {
         let surround = region.surround;
         let (middle, level) = origin(y, region, inside);
         let near = nearest(level);
@@ -82,7 +89,7 @@ impl LevelMoments {
             let grey = sample.level() as i32;
             let r = grey - whole;
             let near = (r as f32 - rest - slope * x as f32).abs() <= limit && grey < saturation;
-            let one = i32::from(near);
+            let one = i32::from(near && counts(k));
             for (sum, term) in sums.iter_mut().zip([one, one * x, one * x * x, one * r, one * r * x]) {
                 *sum = sum.wrapping_add(term);
             }
@@ -99,7 +106,7 @@ impl LevelMoments {
         [product(&rows[0], &rows[0]), product(&rows[0], &rows[1]), product(&rows[1], &rows[1])]
     }
 
-    /// Adds the pixels of a span of a row that are no outliers: not further than four sigmas from the plane.
+    /// Adds the pixels of a span of a row at which nothing lies on the rim and that are no outliers: not further than four sigmas from the plane.
     pub fn add<T: Sample>(
         &mut self,
         row: &[T],
@@ -112,7 +119,13 @@ impl LevelMoments {
             return;
         }
         let first = span.start;
-        let [n, sx, sxx, sr, srx] = Self::sums(&row[span], first, y, region, inside).map(f64::from);
+        // the plain case apart, which the compiler makes vector code of
+        let sums = if region.whole {
+            Self::sums(&row[span], first, y, region, inside, |_| true)
+        } else {
+            Self::sums(&row[span], first, y, region, inside, |k| region.counts(first + k, y))
+        };
+        let [n, sx, sxx, sr, srx] = sums.map(f64::from);
         let (middle, level) = origin(y, region, inside);
         let (sg, sgx) = (sr + nearest(level) * n, srx + nearest(level) * sx);
         let dy = y as f64 + 0.5 - region.outline.v;

@@ -86,6 +86,7 @@ mod tests {
         };
         for (a, b, blur) in [(3.0, 3.0, 0.7), (6.0, 6.0, 0.7), (20.0, 20.0, 0.7), (20.0, 20.0, 2.0), (14.0, 9.0, 0.7)] {
             let outline = Outline::from_axes(40.3, 39.6, a, b, 0.4);
+            let kept = [true; 20];
             let half_band = 3.6 * blur + 1.0;
             let (mut band, mut field) = (Band::default(), Field::default());
             let region = PixelRegion {
@@ -94,6 +95,8 @@ mod tests {
                 surround: &surround,
                 light: [0.0; 2],
                 multiplies: true,
+                kept: &kept,
+                whole: true,
                 saturation: 255.0,
                 stairs: false,
                 quantum: 1.0,
