@@ -39,16 +39,20 @@ fn found(grey: &Grey) -> Result<(Detection, f64), Box<dyn Error>> {
 
 /// One condition of a crew's day after the other, ten pictures each.
 fn conditions() -> Result<(), Box<dyn Error>> {
-    println!("{:<24} targets  found  false  rms px   chi  of them occluded, chi of these", "condition");
+    println!(
+        "{:<24} targets  found  false  rms px   chi  of them occluded, chi of these, said to be hidden",
+        "condition"
+    );
     for condition in conditions::all() {
         let mut all = camera_model::Score::default();
-        let (mut occluded, mut of_occluded) = (0usize, 0.0);
+        let (mut occluded, mut of_occluded, mut told) = (0usize, 0.0, 0);
         for seed in 0..10 {
             let (grey, spots) = (condition.picture)(seed);
             let (detection, _) = found_with(&grey, &condition.options)?;
             let score = camera_model::score(&detection, &spots);
             let (count, square) = conditions::occluded(&detection, &spots);
             occluded += count;
+            told += conditions::said_to_be_hidden(&detection, &spots);
             of_occluded += square;
             all.targets += score.targets;
             all.hits += score.hits;
@@ -58,7 +62,7 @@ fn conditions() -> Result<(), Box<dyn Error>> {
         }
         let count = 2.0 * all.hits.max(1) as f64;
         println!(
-            "{:<24} {:>7} {:>6.3} {:>6} {:>7.4} {:>5.2} {occluded:>5} {:>5.2}",
+            "{:<24} {:>7} {:>6.3} {:>6} {:>7.4} {:>5.2} {occluded:>5} {:>5.2} {told:>5}",
             condition.name,
             all.targets,
             all.hits as f64 / all.targets as f64,

@@ -254,7 +254,7 @@ pub(crate) mod outline {
         SCATTERED: f64 = 0.6, Judged "as above";
         /// Maximum share of an occluded target's outline that may be missing.
         HIDDEN: f64 = 0.42, Judged "most of the outline is seen";
-        /// Minor axis below which the quick test allows no gap; factor of the allowed gap of a first outline.
+        /// Minor axis below which the quick test allows no gap, and what is occluded is rejected with that reason; factor of the allowed gap of a first outline.
         GAP_MINOR: f64 = 12.0, Judged "the letters of `detect` that have an ellipse with a gap are smaller";
         GAP_FIRST: f64 = 2.0, Judged "few rays, the second round decides";
         /// Scatter of the steepest place of an edge of contrast C by noise n, in units of n / C, at least.

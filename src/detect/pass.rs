@@ -1,5 +1,6 @@
 //! One pass over a picture: candidates of the search, their measurement, and occlusions.
 
+use super::acceptance::outline::GAP_MINOR;
 use super::acceptance::size::BLOB_SMALL;
 use super::acceptance::small_targets::{ENOUGH, NOISY_RIMS};
 use super::code;
@@ -108,7 +109,12 @@ pub(super) fn pass<T: Sample>(
         if !tested.is_free(outline) {
             continue;
         }
-        hidden.extend(measure.occluded_target(outline, *bright));
+        match measure.occluded_target(outline, *bright) {
+            Some(target) if target.minor >= GAP_MINOR => hidden.push(target),
+            // of what is small, gravel and letters have such rims too
+            Some(target) => tested.hide(&code::outline_of(&target)),
+            None => {}
+        }
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));

@@ -169,6 +169,17 @@ impl TestedOutlines {
         self.count(&NoBlob::of(&outline, reason));
     }
 
+    /// Shows an outline as that of a target that something hides, once, in place of other reasons for this position.
+    pub fn hide(&mut self, outline: &Outline) {
+        let here = |blob: &Rejected| {
+            let [c, s] = outline.normalised(blob.u, blob.v);
+            c.hypot(s) < 0.5
+        };
+        if !self.detection.rejected_blobs.iter().any(|blob| blob.reason == Reason::Occluded && here(blob)) {
+            self.count(&NoBlob::of(outline, Reason::Occluded));
+        }
+    }
+
     /// Makes room for so many rejected blobs.
     pub fn expect(&mut self, rejected: usize) {
         self.detection.rejected_blobs.reserve(rejected);

@@ -60,7 +60,12 @@ fn textures_are_no_targets() {
         let picture = textures::compressed(&canvas.levels, SIDE, random.within(1.0, 3.0), quality, seed);
         let targets = found(&picture, &DetectOptions::default());
         let own = ratio(&targets, spots.iter()).1;
-        println!("{seed} {texture:?} quality {quality}: {own} of {}, {} others", spots.len(), targets.len() - own);
+        println!(
+            "{seed} {texture:?} quality {quality}: {own} of {}, {} others, {} occluded",
+            spots.len(),
+            targets.len() - own,
+            targets.iter().filter(|t| t.occluded).count()
+        );
         assert!(targets.iter().all(|target| target.minor >= 0.95 * 5.0), "{seed}: smaller than was asked for");
         (all, count, others) = (all + spots.len(), count + own, others + targets.len() - own);
     }

@@ -131,9 +131,9 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
 /// Minimum share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
 /// shows of ten pictures each, less what chance leaves of two.
 const CONDITIONS: [(&str, f64, f64); 13] = [
-    ("hidden by up to a fifth", 0.94, 1.3),
-    ("crossed by a cable", 0.9, 1.2),
-    ("crossed by a dark cable", 0.9, 1.4),
+    ("hidden by up to a fifth", 0.7, 1.3),
+    ("crossed by a cable", 0.79, 1.2),
+    ("crossed by a dark cable", 0.83, 1.4),
     ("moved by up to 6 px", 0.99, 1.1),
     ("JPEG of quality 30", 0.98, 1.2),
     ("noise 20, contrast 150", 0.98, 1.2),
@@ -151,27 +151,33 @@ fn targets_are_found_under_the_conditions_of_a_day() {
     for condition in conditions::all() {
         let (name, least, most) = CONDITIONS.into_iter().find(|(name, ..)| *name == condition.name).expect("a limit");
         let mut tally = Tally::default();
-        let (mut occluded, mut square) = (0, 0.0);
+        let (mut occluded, mut square, mut told) = (0, 0.0, 0);
         for seed in 0..2 {
             let (picture, spots) = (condition.picture)(seed);
             let detection = detected(&picture, &condition.options);
             let (count, sum) = conditions::occluded(&detection, &spots);
             occluded += count;
             square += sum;
+            told += conditions::said_to_be_hidden(&detection, &spots);
             tally.add(&Camera::drawn(seed), &camera_model::score(&detection, &spots));
         }
         let all = tally.all();
         let share = |count: usize| count as f64 / all.targets as f64;
         assert!(share(all.hits) >= least && Tally::chi(&all) <= most && all.others == 0, "{name}: {all}");
         // what is whole is measured; the centre of what is not is rough, and its standard error says so
-        if ["hidden by up to a fifth", "crossed by a cable", "crossed by a dark cable"].contains(&name) {
+        if let Some((_, seen)) = HIDDEN.iter().find(|(hidden, _)| *hidden == name) {
             let chi = (square / (2 * occluded) as f64).sqrt();
             assert!(share(occluded) > 0.1 && chi < 1.1, "{name}: {occluded} occluded of {all}, error over sigma {chi}");
+            assert!(share(all.hits + told) >= *seen, "{name}: {all}, {told} said to be hidden");
         } else {
             assert!(share(occluded) <= 0.01, "{name}: {occluded} occluded of {all}");
         }
     }
 }
+
+/// Minimum share that is found or said to be hidden where something hides a part.
+const HIDDEN: [(&str, f64); 3] =
+    [("hidden by up to a fifth", 0.94), ("crossed by a cable", 0.9), ("crossed by a dark cable", 0.9)];
 
 /// A laboratory's; what is changed of it is what its report has to say.
 const PLAIN: Camera =

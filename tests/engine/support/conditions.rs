@@ -1,7 +1,7 @@
 //! Pictures under the conditions that a crew meets one at a time: something before the targets, a moved camera, coarse
 //! compression, drawings, light that the sensor cannot hold.
 
-use sightline::detection::{DetectOptions, Detection, Target};
+use sightline::detection::{DetectOptions, Detection, Reason, Target};
 use sightline::image::{Grey, Samples};
 
 use super::painter::{Canvas, Spot, Uniform};
@@ -11,6 +11,16 @@ pub struct Condition {
     pub name: &'static str,
     pub options: DetectOptions,
     pub picture: fn(u64) -> (Grey, Vec<Spot>),
+}
+
+/// Spots that are no targets, of which a detection says that something hides them.
+pub fn said_to_be_hidden(detection: &Detection, spots: &[Spot]) -> usize {
+    let missed = spots.iter().filter(|spot| {
+        let off = |u: f64, v: f64| (u - spot.u).hypot(v - spot.v);
+        detection.targets.iter().all(|target| off(target.u, target.v) > 1.0 + 0.1 * spot.b)
+            && detection.rejected_blobs.iter().any(|no| no.reason == Reason::Occluded && off(no.u, no.v) < 0.5 * spot.b)
+    });
+    missed.count()
 }
 
 /// Spots that are reported as occluded targets: their number, and the sum of the squares of their errors over their standard errors.
