@@ -117,7 +117,7 @@ test('photos are on the page before they are read', { timeout: 120_000 }, async 
     const paths = Array.from({ length: 8 }, (_, k) => scratch(`early${k}.jpg`, withThumbnail(whole, small, k)));
     await photos(page, [...paths, scratch('again.jpg', withThumbnail(whole, small, 3)), scratch('letter.jpg', 'Dear Sir or Madam')]);
     assert.deepEqual(await page.evaluate(() => window.coming), { most: 9, step: '#photos', taken: 0 });
-    // Each photo replaces its preview; a duplicate and a file that is no photo are reported as usual.
+    // Every preview gives way to its photo. The duplicate and the text file are listed as problems.
     assert.equal(await page.locator('.tile').count(), 8);
     assert.equal(await page.locator('.coming-tile').count(), 0);
     assert.equal(await page.locator('.problems li').count(), 2);

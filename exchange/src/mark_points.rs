@@ -15,7 +15,7 @@ const DEFAULT_SIGMA: f64 = 0.1;
 /// Reads marks: the measurements with one sigma each, the root mean square of two.
 ///
 /// # Errors
-/// [`Error::Invalid`] with line and field, [`Error::Empty`] if there is no measurement.
+/// [`Error::Invalid`], with the line and the field, for text that is no measurement; [`Error::Empty`] for a text without measurements.
 pub fn parse(text: &str) -> Result<Vec<Mark>> {
     let mark = |observation: Observation| {
         let [su, sv] = observation.sigma.both();
@@ -29,7 +29,8 @@ pub fn parse(text: &str) -> Result<Vec<Mark>> {
 /// that names photo, point, u and v decides their order.
 ///
 /// # Errors
-/// [`Error::Invalid`] with line and field, also where commas may be decimal commas; [`Error::Empty`] if there is no measurement.
+/// [`Error::Invalid`], with the line and the field, for text that is no measurement and for commas that may be decimal commas;
+/// [`Error::Empty`] for a text without measurements.
 pub fn observations(text: &str) -> Result<Vec<Observation>> {
     let mut rows = text::rows(text);
     // The first row may be a heading.

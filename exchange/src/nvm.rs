@@ -94,8 +94,8 @@ pub fn read(text: &str) -> Result<ForeignNetwork> {
             ([side(cx), side(cy)], [cx, cy])
         }
         (None, Some(centre)) => {
-            network.notes.assume(Assumed::ImageSizeFromPrincipalPoint);
-            // What was measured from the principal point below.
+            network.notes.assume(Assumed::MeasurementsFromCorner);
+            // From here on they count from the principal point, as those of other files do.
             measured.iter_mut().for_each(|(.., [x, y])| (*x, *y) = (*x - centre[0], *y - centre[1]));
             (centre.map(|c| (2.0 * c).round().clamp(1.0, 1e6) as u32), centre)
         }
@@ -216,6 +216,7 @@ mod tests {
         };
         let network = read(&file([640.0, 480.0])).unwrap();
         assert_eq!(network.cameras[0].size, [1280, 960]);
+        assert!(network.notes.assumed.contains(&Assumed::MeasurementsFromCorner));
         let ForeignModel::Correction(camera, None) = &network.cameras[0].model else { panic!("a camera of ours") };
         for (k, seen) in network.observations.iter().enumerate() {
             let (x, y) = (0.1 * (k as f64 - 5.0), 0.05 * (k as f64 - 3.0));

@@ -1,7 +1,7 @@
 //! Sorts files dropped together by content: networks and cameras of other programs, and the rest.
 //!
 //! A model of COLMAP, a project of DBAT and the exports of Metashape are several files; every other format is one file, RealityCapture's one per photo, Bundler's with a list
-//! of pictures, OpenSfM's with its tracks beside it. Only binary files of COLMAP are recognised by their names alone: nothing marks their content. A file that is no picture,
+//! of pictures, OpenSfM's with a file of tracks. Binary files of COLMAP alone are recognised by their names, since their content has no signature. A file that is no picture,
 //! no table and no project, and that cannot be read as what it begins like, is refused with the line.
 
 use super::{

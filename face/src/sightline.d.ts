@@ -1758,6 +1758,7 @@ export interface Ignored {
 export type Assumed =
   | "sigma_one_pixel"
   | "image_size_from_principal_point"
+  | "measurements_from_corner"
   | "image_size_from_measurements"
   | "four_coefficients_radial_tangential"
   | "unit_unknown"

@@ -253,7 +253,8 @@ fn spread(shots: Vec<Shot>, most: usize) -> Vec<Shot> {
     (0..most).map(|k| shots[(k as f64 * step) as usize].clone()).collect()
 }
 
-/// Photos inside what is seen from its middle: at the wall seen from there, from behind it, and from the side.
+/// Candidate stations inside an object that is photographed from within, such as a room: each aims at a wall, from the centre, from farther
+/// back and from either side.
 fn inside(setup: &Setup<'_>, frame: &Frame, sees: usize) -> Vec<Shot> {
     let mut shots = Vec::new();
     for direction in frame.directions() {

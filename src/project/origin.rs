@@ -22,6 +22,9 @@ pub enum Assumed {
     SigmaOnePixel,
     /// The size of the picture is not in the file: it is twice the principal point.
     ImageSizeFromPrincipalPoint,
+    /// Neither the size of the picture nor the principal point is in the file, and its measurements count from the corner of the picture: the
+    /// principal point is their median difference from the images of their points, and the size is twice that.
+    MeasurementsFromCorner,
     /// The size of the picture is not in the file: it holds all measurements, and its centre is their origin.
     ImageSizeFromMeasurements,
     /// Four coefficients are k1, k2, p1, p2, not those of a fisheye lens.

@@ -314,7 +314,7 @@ fn from_heading(row: &[String], all: &[Named]) -> Result<Columns, Fault> {
             return fault(field, reason.into());
         }
     }
-    // A column of names is the id if there is no column of ids; otherwise the first column is, if its heading is not known.
+    // Without a column of identifiers the column of names serves as one; without that, the first column does if its heading is unknown.
     if !fields.contains(&Some(Field::Id)) {
         match fields.iter().position(|column| *column == Some(Field::Label)) {
             Some(place) => fields[place] = Some(Field::Id),

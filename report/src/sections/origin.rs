@@ -55,6 +55,7 @@ pub fn write(context: &Context, html: &mut Html) {
         html.note(match one {
             Assumed::SigmaOnePixel => words.origin_sigma(),
             Assumed::ImageSizeFromPrincipalPoint => words.origin_size_principal_point(),
+            Assumed::MeasurementsFromCorner => words.origin_from_corner(),
             Assumed::ImageSizeFromMeasurements => words.origin_size_measurements(),
             Assumed::FourCoefficientsRadialTangential => words.origin_four(),
             Assumed::UnitUnknown => words.origin_unit(),

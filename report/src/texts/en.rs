@@ -96,6 +96,7 @@ declare! {
     origin_warning: "This is more than 0.05 px; the residuals contain it.";
     origin_sigma: "The files give no standard errors of image measurements: 1 px each is assumed.";
     origin_size_principal_point: "The file gives no image size: twice the principal point is assumed.";
+    origin_from_corner: "The measurements count from the corner of the image, as COLMAP writes them: the principal point is their median difference from the images of their points, and the image size is twice that.";
     origin_size_measurements: "The file gives no image size: the smallest image that contains all measurements is assumed, with their origin at its centre.";
     origin_four: "Four distortion coefficients were read as k1, k2, p1, p2.";
     origin_unit: "The files give no unit of length.";

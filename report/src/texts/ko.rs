@@ -93,6 +93,7 @@ translate! { Korean {
     origin_warning: "0.05 px보다 큰 차이이며 잔차에 포함됩니다.";
     origin_sigma: "파일에 영상 관측값의 표준오차가 없어 모두 1 px로 두었습니다.";
     origin_size_principal_point: "파일에 영상 크기가 없어 주점 좌표의 두 배로 두었습니다.";
+    origin_from_corner: "COLMAP이 쓰는 방식대로 측정값을 영상 모서리에서 센 것으로 보았습니다. 주점은 점의 투영 위치와의 차이의 중앙값이고, 영상 크기는 그 두 배입니다.";
     origin_size_measurements: "파일에 영상 크기가 없어 모든 관측값을 담는 가장 작은 크기로 두고, 관측값의 원점을 그 중심으로 했습니다.";
     origin_four: "왜곡계수 4개를 k1, k2, p1, p2로 읽었습니다.";
     origin_unit: "파일에 길이 단위가 없습니다.";

@@ -17,6 +17,7 @@ pub fn assumed_words(assumed: Assumed) -> &'static str {
     match assumed {
         Assumed::SigmaOnePixel => words::assumed_sigma(),
         Assumed::ImageSizeFromPrincipalPoint => words::assumed_size_principal_point(),
+        Assumed::MeasurementsFromCorner => words::assumed_from_corner(),
         Assumed::ImageSizeFromMeasurements => words::assumed_size_measurements(),
         Assumed::FourCoefficientsRadialTangential => words::assumed_four(),
         Assumed::UnitUnknown => words::assumed_unit(),
@@ -140,6 +141,7 @@ mod tests {
         let all = [
             Assumed::SigmaOnePixel,
             Assumed::ImageSizeFromPrincipalPoint,
+            Assumed::MeasurementsFromCorner,
             Assumed::ImageSizeFromMeasurements,
             Assumed::FourCoefficientsRadialTangential,
             Assumed::UnitUnknown,

@@ -15,6 +15,7 @@ declare! { interchange {
     converted: "Camera models converted";
     assumed_sigma: "The files give no standard errors of image measurements: 1 px each is assumed.";
     assumed_size_principal_point: "The file gives no image size: twice the principal point is assumed.";
+    assumed_from_corner: "The measurements count from the corner of the image, as COLMAP writes them: the principal point is their median difference from the images of their points, and the image size is twice that.";
     assumed_size_measurements: "The file gives no image size: the smallest image that contains all measurements is assumed, with their origin at its centre.";
     assumed_four: "Four distortion coefficients are read as k1, k2, p1, p2. For a fisheye lens this camera is wrong.";
     assumed_unit: "The files give no unit of length. The project's unit is only a name until you give a distance or control points in step 4.";
