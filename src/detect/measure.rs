@@ -21,7 +21,6 @@ use super::picture::noise::GreyStatistics;
 use super::rendered::band::{PixelRegion, Prior};
 use super::rendered::fit::{self, Workspace};
 use super::rendered::neighbours::Neighbours;
-use super::rendered::noise_autocorrelation::NoiseProducts;
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Sample, SampleView};
 
@@ -43,8 +42,6 @@ pub(crate) struct Measure<'a, T> {
     pub work: Workspace,
     /// Prior values of blur and contrast, if any.
     prior: Option<Prior>,
-    /// Noise autocorrelation of the target measured last.
-    pub colour: Option<NoiseProducts>,
     /// Rms of what the last fit of a rendered ellipse left, less its mean profile across the rim; 0 without one.
     pub uneven: f64,
 }
@@ -78,16 +75,7 @@ impl PreliminaryTarget {
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: SampleView<'a, T>, levels: GreyStatistics, options: &'a DetectOptions) -> Self {
-        Self {
-            plane,
-            levels,
-            options,
-            edges: Edges::default(),
-            work: Workspace::default(),
-            prior: None,
-            colour: None,
-            uneven: 0.0,
-        }
+        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), prior: None, uneven: 0.0 }
     }
 
     /// Edges on `count` rays, of a target of about this blur.
@@ -151,6 +139,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     fn measured(&mut self, found: &PreliminaryTarget, method: Method) -> Result<Target, Reason> {
+        self.work.forget();
         let mut outline = found.ellipse.outline;
         let mut surround = match method {
             Method::LeastSquares => found.surround,
@@ -162,7 +151,6 @@ impl<'a, T: Sample> Measure<'a, T> {
         let centre = match method {
             Method::LeastSquares => {
                 let (fit, around) = self.least_squares(found)?;
-                self.colour = fit.colour;
                 self.uneven = fit.uneven;
                 surround = around;
                 outline = fit.outline;

@@ -90,7 +90,7 @@ pub(super) fn pass<T: Sample>(
         let Candidate { outline, bright } = candidate;
         match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
             Ok(target) => {
-                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                colours.extend(measure.work.noise_products().map(|colour| ([target.u, target.v], colour)));
                 uneven.push(measure.uneven);
                 tested.accept(target, *bright);
             }
@@ -165,7 +165,7 @@ fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -
         let found = measure.confirm(&code::outline_of(target), target.polarity == Polarity::Bright);
         if let Ok(again) = found.and_then(|found| measure.finish(&found, measure.options.method)) {
             *target = again;
-            colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+            colours.extend(measure.work.noise_products().map(|colour| ([target.u, target.v], colour)));
         }
     }
     colours
@@ -194,7 +194,7 @@ pub(super) fn take_small_targets<T: Sample>(
             continue;
         }
         if let Ok(target) = measure.small_target(outline, common, wanted) {
-            colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+            colours.extend(measure.work.noise_products().map(|colour| ([target.u, target.v], colour)));
             tested.reconsider(target, common.bright);
         }
     }

@@ -255,7 +255,6 @@ impl<T: Sample> Measure<'_, T> {
         }
         let fit = found.ok_or(Reason::NoFit)?;
         self.judge(seen, &fit, common)?;
-        self.colour = fit.colour;
         let (a, b, angle) = outline.axes();
         let [uu, uv, vv] = fit.covariance;
         Ok(Target {

@@ -47,17 +47,18 @@ pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
 /// middle of a ring of some design and about as wide as that. One alone may be any neighbour, unless the ring itself was seen.
 pub(crate) fn drop_sectors(detection: &mut Detection) {
     let all = &detection.targets;
+    let outlines: Vec<Outline> = all.iter().map(outline_of).collect();
     let mut sectors = vec![false; all.len()];
     let mut dots = Vec::new();
     // the rings of large dots are read, and objects around them are as far apart
     for (k, dot) in all.iter().enumerate().filter(|(_, dot)| dot.minor <= TONE_SMALL) {
-        let own = outline_of(dot);
+        let own = outlines[k];
         let is_sector = |other: &usize, design: Design| {
             let target = &all[*other];
             // between two sectors the background is an ellipse too
             let alike =
                 target.contrast > SECTOR_CONTRAST * dot.contrast && dot.contrast > SECTOR_CONTRAST * target.contrast;
-            *other != k && target.code.is_none() && alike && is_in_ring(&own, &outline_of(target), design)
+            *other != k && target.code.is_none() && alike && is_in_ring(&own, &outlines[*other], design)
         };
         // the design of which there are more: their rings overlap
         let found = [Design::Schneider, Design::Metashape]

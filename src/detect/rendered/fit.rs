@@ -56,8 +56,13 @@ pub(crate) struct Fit {
     pub disturbed: f64,
     /// Covariance of the centre: uu, uv, vv.
     pub covariance: [f64; 3],
-    /// Noise autocorrelation, if requested.
-    pub colour: Option<NoiseProducts>,
+}
+
+/// What the noise of neighbouring pixels does to a fit is computed from.
+struct Fitted {
+    cofactors: NormalMatrix,
+    contrast: f64,
+    outline: Outline,
 }
 
 /// Memory that is reused from target to target.
@@ -73,6 +78,8 @@ pub(crate) struct Workspace {
     pub mean: f64,
     /// Whether the last fit was given up for what its corrections promised.
     pub hopeless: bool,
+    /// Of the last fit, if it led to a result.
+    fitted: Option<Fitted>,
 }
 
 /// Outline, blur and levels of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
@@ -212,17 +219,10 @@ pub(crate) fn fit<T: Sample>(
         true => work.band.shifts_by_shape(&state.outline, work.origin, state.blur, state.lit.contrast, &cofactors),
         false => [0.0; 3],
     };
-    let Workspace { band, field, origin, coloured, mean, .. } = work;
-    let mut colour = None;
-    if *coloured || beyond {
-        colour = Some(band.colour(field, &cofactors, state.lit.contrast, &state.outline, *origin, *mean)?);
-    }
-    if !*coloured && let Some(colour) = colour.take() {
-        // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
-        if colour.shared() > limits::SHARED {
-            let share = (1.0 - noise / variance).max(0.0);
-            covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
-        }
+    // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
+    if beyond && !work.coloured && work.band.shared(&work.field, &state.outline, work.origin) > limits::SHARED {
+        let share = (1.0 - noise / variance).max(0.0);
+        covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
     }
     let mut outline = state.outline;
     let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
@@ -234,8 +234,8 @@ pub(crate) fn fit<T: Sample>(
         // the light is known to about its own size
         covariance = [covariance[0] + pu * pu, covariance[1] + pu * pv, covariance[2] + pv * pv];
     }
+    work.fitted = Some(Fitted { cofactors, contrast: state.lit.contrast, outline: state.outline });
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
-        colour,
         outline,
         blur: state.blur,
         contrast: state.lit.contrast,
@@ -254,6 +254,7 @@ impl Workspace {
         region: &PixelRegion,
         blur: f64,
     ) -> Option<(FitState, Flats)> {
+        self.fitted = None;
         let surround = region.surround;
         let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
         let state = FitState {
@@ -269,6 +270,17 @@ impl Workspace {
         self.origin = [region.outline.u, region.outline.v];
         self.field.place(&region.outline, state.blur, region.half_band);
         Some((state, self.band.collect(plane, &self.field, region)?))
+    }
+
+    /// Noise autocorrelation of the last fit; `None` without one, or where neighbouring pixels are not known to share their noise.
+    pub fn noise_products(&self) -> Option<NoiseProducts> {
+        let Fitted { cofactors, contrast, outline } = self.fitted.as_ref().filter(|_| self.coloured)?;
+        self.band.colour(&self.field, cofactors, *contrast, outline, self.origin, self.mean)
+    }
+
+    /// No fit belongs to what is measured.
+    pub fn forget(&mut self) {
+        self.fitted = None;
     }
 
     /// Renders the model at the state and takes it off the pixels; `None` if it leaves the field.

@@ -67,16 +67,6 @@ pub(crate) struct NoiseProducts {
     natural: f64,
 }
 
-impl NoiseProducts {
-    /// Correlation of the next neighbours in row and column.
-    pub fn shared(&self) -> f64 {
-        let next =
-            OFFSETS.iter().zip(self.residuals.iter().zip(&self.pairs)).filter(|((dx, dy), _)| dx * dx + dy * dy == 1);
-        let (sum, pairs) = next.fold((0.0, 0.0), |(sum, all), (_, (residual, pairs))| (sum + residual, all + pairs));
-        sum / f64::max(pairs, 1.0) / (self.residuals[0] / self.pairs[0].max(1.0)).max(1e-12)
-    }
-}
-
 /// Noise autocorrelation, mean of a picture's targets: of the residuals, and of the residuals that fits leave of known noise.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NoiseAutocorrelation {
@@ -148,6 +138,57 @@ impl Band {
         (places.iter().map(|(place, _)| between(*place) as f32).collect(), means.len())
     }
 
+    /// Correlation of the residuals of the next neighbours in row and column.
+    pub fn shared(&self, field: &Field, outline: &Outline, origin: [f64; 2]) -> f64 {
+        let grid = self.grid(field, outline, origin, |_| [0.0; 2]);
+        let [own, across, down, _] = self.products(&grid, field.width, [0, 1, field.width, 0]);
+        let [.., residuals, pairs] = own;
+        let [sum, all] = [across[2] + down[2], across[3] + down[3]];
+        sum / all.max(1.0) / (residuals / pairs.max(1.0)).max(1e-12)
+    }
+
+    /// At each pixel of the field: what it moves the centre by, its residual less the mean profile across the rim, and 1; zeros where
+    /// it does not count.
+    fn grid(
+        &self,
+        field: &Field,
+        outline: &Outline,
+        origin: [f64; 2],
+        moved: impl Fn(usize) -> [f32; 2],
+    ) -> Vec<[f32; 4]> {
+        let mut profile = self.profile(outline, origin).0.into_iter();
+        let mut grid = vec![[0f32; 4]; field.width * field.height];
+        let mut k = 0;
+        for &(row, column, length) in &self.spans {
+            let from = row * field.width + column;
+            for (at, pixel) in (from..).zip(&mut grid[from..from + length]) {
+                if self.kept[k] > 0.0 {
+                    let mean = profile.next().unwrap_or_default();
+                    let [u, v] = moved(at);
+                    *pixel = [u, v, self.residual[k] - mean, 1.0];
+                }
+                k += 1;
+            }
+        }
+        grid
+    }
+
+    /// Sums over the spans of what each pixel has times what its neighbours at these shifts have.
+    fn products(&self, grid: &[[f32; 4]], width: usize, shifts: [usize; TOGETHER]) -> [[f64; 4]; TOGETHER] {
+        let mut sums = [f32x4::ZERO; TOGETHER];
+        for &(row, column, length) in &self.spans {
+            let from = row * width + column;
+            // the field's margin is wider than the reach, so that no pair goes around its end
+            let [a, b, c, d] = shifts.map(|shift| grid.get(from + shift..).unwrap_or_default());
+            for ((((pixel, a), b), c), d) in grid[from..from + length].iter().zip(a).zip(b).zip(c).zip(d) {
+                for (sum, neighbour) in sums.iter_mut().zip([a, b, c, d]) {
+                    *sum += f32x4::new(*pixel) * f32x4::new(*neighbour);
+                }
+            }
+        }
+        sums.map(|sum| sum.to_array().map(f64::from))
+    }
+
     /// Products of neighbours, from the residuals and the cofactors of a fit, for known noise that a mean of this sigma has passed; `None` if
     /// the cofactors are not positive definite.
     pub fn colour(
@@ -160,45 +201,17 @@ impl Band {
         mean: f64,
     ) -> Option<NoiseProducts> {
         let residual = ResidualCovariance::of(self, field, cofactors, contrast, mean)?;
-        let mut profile = self.profile(outline, origin).0.into_iter();
-        let mut grid = vec![[0f32; 4]; field.width * field.height];
-        let mut k = 0;
-        for &(row, column, length) in &self.spans {
-            let from = row * field.width + column;
-            for (at, pixel) in (from..).zip(&mut grid[from..from + length]) {
-                if self.kept[k] > 0.0 {
-                    let mean = profile.next().unwrap_or_default();
-                    let [u, v] = residual.moved(at);
-                    *pixel = [u, v, self.residual[k] - mean, 1.0];
-                }
-                k += 1;
-            }
-        }
+        let grid = self.grid(field, outline, origin, |at| residual.moved(at));
         let none = [0.0; NEIGHBOURS];
         let mut colour = NoiseProducts { moved: none, residuals: none, pairs: none, known: none, natural: 1.0 };
-        // only what lies in a span counts, which of a large field is little; several neighbours at once do not wait for each other
+        // several neighbours at once do not wait for each other
         for first in (0..NEIGHBOURS).step_by(TOGETHER) {
-            let shifts: [usize; TOGETHER] = std::array::from_fn(|i| {
-                let (dx, dy) = OFFSETS[(first + i).min(NEIGHBOURS - 1)];
-                (dy * field.width as i32 + dx) as usize
-            });
-            let mut sums = [f32x4::ZERO; TOGETHER];
-            for &(row, column, length) in &self.spans {
-                let from = row * field.width + column;
-                // the field's margin is wider than the reach, so that no pair goes around its end
-                let [a, b, c, d] = shifts.map(|shift| grid.get(from + shift..).unwrap_or_default());
-                for ((((pixel, a), b), c), d) in grid[from..from + length].iter().zip(a).zip(b).zip(c).zip(d) {
-                    for (sum, neighbour) in sums.iter_mut().zip([a, b, c, d]) {
-                        *sum += f32x4::new(*pixel) * f32x4::new(*neighbour);
-                    }
-                }
-            }
+            let offsets: [(i32, i32); TOGETHER] = std::array::from_fn(|i| OFFSETS[(first + i).min(NEIGHBOURS - 1)]);
+            let shifts = offsets.map(|(dx, dy)| (dy * field.width as i32 + dx) as usize);
+            let sums = self.products(&grid, field.width, shifts);
             let removed = residual.products(self, field.width, shifts);
-            for (i, (sum, removed)) in
-                sums.into_iter().zip(removed).enumerate().take_while(|(i, _)| first + i < NEIGHBOURS)
-            {
-                let at = first + i;
-                let [u, v, r, n] = sum.to_array().map(f64::from);
+            for (at, (sum, removed)) in (first..NEIGHBOURS).zip(sums.into_iter().zip(removed)) {
+                let [u, v, r, n] = sum;
                 (colour.moved[at], colour.residuals[at], colour.pairs[at]) = (u + v, r, n);
                 let (dx, dy) = OFFSETS[at];
                 colour.known[at] = correlation(dx, dy, mean) * n - removed;

@@ -23,7 +23,8 @@ type Row = [[f32; 4]; FOURS];
 /// K and M of the covariance of the residuals, P - K M' - M K', for the pixels of a field.
 pub(super) struct ResidualCovariance {
     own: Vec<Row>,
-    other: Vec<Row>,
+    /// M; `None` for white noise, of which it is K / 2.
+    other: Option<Vec<Row>>,
     /// Displacement of the centre caused by the matrix K.
     to_centre: [[f32; 2]; 2],
     /// Sum of K², the unknowns that the band determines.
@@ -56,11 +57,10 @@ impl ResidualCovariance {
         let to_centre = centre.map(|row| row.map(|value| value as f32));
         let square = |row: &Row| row.as_flattened().iter().map(|k| f64::from(*k).powi(2)).sum::<f64>();
         let trace = own.iter().map(square).sum();
-        let mut other = own.clone();
         if mean <= 0.0 {
-            other.iter_mut().flat_map(|row| row.as_flattened_mut()).for_each(|k| *k *= 0.5);
-            return Some(Self { own, other, to_centre, trace, natural: 1.0 });
+            return Some(Self { own, other: None, to_centre, trace, natural: 1.0 });
         }
+        let mut other = own.clone();
         convolve(&mut other, field.width, mean);
         let (mut through, mut plain) = (NormalMatrix::zeros(), NormalMatrix::zeros());
         for &(row, column, length) in &band.spans {
@@ -90,7 +90,7 @@ impl ResidualCovariance {
                 moved += row.into_iter().enumerate().map(|(j, b)| a * b * through[(i, j)]).sum::<f64>();
             }
         }
-        Some(Self { own, other, to_centre, trace, natural: moved / white })
+        Some(Self { own, other: Some(other), to_centre, trace, natural: moved / white })
     }
 
     /// Displacement of the centre per unit of the pixel at a position of the field.
@@ -100,15 +100,22 @@ impl ResidualCovariance {
     }
 
     /// Sums of K M' + M K' over pairs of pixels of the spans, one for each shift.
-    pub fn products(&self, band: &Band, width: usize, shifts: [usize; TOGETHER]) -> [f64; TOGETHER] {
+    pub fn products<'a>(&'a self, band: &Band, width: usize, shifts: [usize; TOGETHER]) -> [f64; TOGETHER] {
         let mut sums = [f32x4::ZERO; TOGETHER];
         for &(row, column, length) in &band.spans {
             let from = row * width + column;
             for (sum, shift) in sums.iter_mut().zip(shifts) {
                 let end = (from + length).min(self.own.len().saturating_sub(shift));
-                for at in from..end {
-                    let (k, m) = (&self.own[at], &self.other[at]);
-                    let (far_k, far_m) = (&self.own[at + shift], &self.other[at + shift]);
+                let pairs = |of: &'a [Row]| of[from..end].iter().zip(&of[from + shift..end + shift]);
+                let Some(other) = &self.other else {
+                    for (k, far_k) in pairs(&self.own) {
+                        for four in 0..FOURS {
+                            *sum += f32x4::new(k[four]) * f32x4::new(far_k[four]);
+                        }
+                    }
+                    continue;
+                };
+                for ((k, far_k), (m, far_m)) in pairs(&self.own).zip(pairs(other)) {
                     for four in 0..FOURS {
                         *sum += f32x4::new(k[four]) * f32x4::new(far_m[four])
                             + f32x4::new(m[four]) * f32x4::new(far_k[four]);

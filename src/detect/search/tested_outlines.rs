@@ -39,7 +39,12 @@ fn encloses(outer: &Outline, inner: &Outline) -> bool {
 pub(crate) fn forget_rejected(detection: &mut Detection, target: &Target) {
     let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
     let rejected = &mut detection.rejected;
+    let reach = target.major / 2.0;
     detection.rejected_blobs.retain(|blob| {
+        // nearly all lie far away
+        if (blob.u - target.u).abs() > reach || (blob.v - target.v).abs() > reach {
+            return true;
+        }
         let [c, s] = outline.normalised(blob.u, blob.v);
         let stays = c.hypot(s) > 1.0 || blob.diameter > 3.0 * target.major;
         if !stays && let Some(count) = rejected.get_mut(&blob.reason) {
