@@ -27,6 +27,7 @@ mod picture;
 mod rendered;
 mod rims;
 mod search;
+mod second_look;
 mod shot;
 mod sites;
 mod small_targets;
@@ -34,24 +35,22 @@ mod window;
 
 pub(crate) use ellipse::{conic, outline};
 
-use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Target};
+use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Polarity, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Sample, SampleView, SamplesView};
-use acceptance::levels::ROUNDING;
-use acceptance::picture::{RESTORED, SOFT};
 use code::outline_of;
 pub use colours::colours_apart;
 pub use damaged_rows::{detect_photo, measure_in_photo};
 use measure::Measure;
-use normal::BLUR;
 use outline::Outline;
 use pass::Pass;
-use picture::character::{APART, Character};
+use picture::character::Character;
 use picture::dither;
 use picture::noise::{self, GreyStatistics};
 use picture::sharpening::{self, Sharpening};
-use picture::softened::Softened;
+use search::Candidate;
 use search::tested_outlines::TestedOutlines;
+use second_look::View;
 pub use shot::{detect_shot, measure_in_shot};
 use small_targets::ExpectedShape;
 
@@ -169,90 +168,144 @@ fn check(options: &DetectOptions) -> Result<()> {
     Ok(())
 }
 
-/// Detects on the original; for processed photos also on a smoothed copy with its sharpening undone, for what is occluded
-/// otherwise. What was found first stands.
+/// Detects in the picture, and in a processed photo at a second look, too. What was found first stands.
 fn detect_in<T: Sample>(plane: SampleView<T>, options: &DetectOptions) -> Detection {
     let mut levels = noise::levels(&plane);
     let character = Character::of(&plane, &levels);
     let mut processed = character.is_processed(&levels);
     levels.developed = processed && !character.is_clipped();
     let mut picture = report(&levels, &character, options.method);
-    let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), None, &[]);
-    let coloured = passed.coloured;
-    let hidden = std::mem::take(&mut passed.occluded);
-    if !processed && !levels.stairs {
-        // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
-        let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
-        let found = sharpening::of_rims(&plane, outlines.iter(), levels.saturation);
-        processed = found.is_some();
+    let mut first = pass::pass(plane, levels, options, processed && character.is_compressed());
+    let mut sharpening = None;
+    if processed || !levels.stairs {
+        // rims show what was done to the picture, also where dots are too small for flat sides of a row's steps
+        sharpening = sharpening::of_rims(&plane, outlines(&first.detection.targets).iter(), levels.saturation);
+        processed |= sharpening.is_some();
         levels.developed = processed && !character.is_clipped();
     }
-    let mut factors = passed.correlate();
-    let (mut restored, mut left) = (None, Vec::new());
-    if processed {
-        let Pass { detection: Detection { targets: first, .. }, mut grounds, doubtful, .. } = passed;
-        let known: Vec<Target> = first.iter().chain(&grounds).cloned().collect();
-        (passed, restored) = soften(&plane, &levels, options, &known, &mut picture, &mut factors);
-        passed.detection.targets.extend_from_slice(&first);
-        if options.codes != Codes::None {
-            let undone = restored.iter().flat_map(|(_, pass)| &pass.detection.targets);
-            let known = passed.detection.targets.iter().chain(undone);
-            left = in_rings(plane, levels, options, true, &doubtful, &first, known);
-        }
-        grounds.append(&mut passed.grounds);
-        passed.grounds = grounds;
-    } else if options.codes != Codes::None {
-        let Pass { detection: Detection { targets, .. }, doubtful, .. } = &passed;
-        left = in_rings(plane, levels, options, false, doubtful, targets, targets.iter());
+    let mut factors = first.correlate();
+    let second = match processed {
+        true => look_again(&plane, &levels, options, &first, sharpening, &mut factors),
+        false => SecondLook::default(),
+    };
+    picture.softened = processed;
+    if let Some(Sharpening { amount, radius }) = second.sharpening {
+        (picture.sharpening, picture.sharpening_radius) = (amount, radius);
     }
     if factors[1] > 0.0 {
         picture.noise_correlation = (factors[0] / factors[1]).sqrt();
     }
-    let Pass { mut detection, grounds, .. } = passed;
-    // codes are read where their dots were measured: with the sharpening undone, or in the picture itself
-    let (undone, undone_grounds, softened) = match restored {
-        Some((softened, pass)) => (pass.detection.targets, pass.grounds, Some(softened)),
-        None => (Vec::new(), Vec::new(), None),
+    let coloured = first.coloured || processed;
+    let mut detection = gather(&plane, &levels, options, processed, first, second);
+    rims::settle(&plane, &levels, options, coloured, &mut detection);
+    detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+    let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
+    Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
+}
+
+/// What the second look at a processed photo found.
+#[derive(Default)]
+struct SecondLook {
+    sharpening: Option<Sharpening>,
+    softened: Pass,
+    undone: Option<(View, Pass)>,
+}
+
+/// Looks at a processed photo again: with its sharpening undone if the rims show one, or else softened. What is found so may show a sharpening
+/// in its turn, and is measured with that undone.
+fn look_again<T: Sample>(
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
+    options: &DetectOptions,
+    first: &Pass,
+    sharpening: Option<Sharpening>,
+    factors: &mut [f64; 2],
+) -> SecondLook {
+    let known: Vec<Target> = first.detection.targets.iter().chain(&first.grounds).cloned().collect();
+    let halved = second_look::search_halved(plane, levels, options);
+    let mut view = View::of(plane, levels, sharpening);
+    let mut found = view.look(plane, options, &known, &halved.candidates, &halved);
+    add(factors, found.correlate());
+    if sharpening.is_some() {
+        return SecondLook { sharpening, softened: Pass::default(), undone: Some((view, found)) };
+    }
+    let both: Vec<Target> = known.iter().chain(&found.detection.targets).cloned().collect();
+    let Some(sharpening) = sharpening::of_rims(plane, outlines(&both).iter(), levels.saturation) else {
+        return SecondLook { sharpening: None, softened: found, undone: None };
     };
+    let candidate =
+        |target: &Target| Candidate { outline: outline_of(target), bright: target.polarity == Polarity::Bright };
+    let candidates: Vec<Candidate> = found.detection.targets.iter().map(candidate).collect();
+    let mut view = View::of(plane, levels, Some(sharpening));
+    let mut undone = view.look(plane, options, &known, &candidates, &halved);
+    add(factors, undone.correlate());
+    let taken = outlines(&undone.detection.targets);
+    found.detection.targets.retain(|target| taken.iter().all(|other| are_apart(&outline_of(target), other)));
+    SecondLook { sharpening: Some(sharpening), softened: found, undone: Some((view, undone)) }
+}
+
+/// All targets of a photo with their codes, and what was rejected.
+fn gather<T: Sample>(
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
+    options: &DetectOptions,
+    processed: bool,
+    first: Pass,
+    second: SecondLook,
+) -> Detection {
+    let (mut view, undone) = second.undone.map_or((None, Pass::default()), |(view, pass)| (Some(view), pass));
+    let left = match options.codes {
+        Codes::None => Vec::new(),
+        _ => {
+            let softened = second.softened.detection.targets.iter();
+            let found = softened.chain(&undone.detection.targets);
+            in_rings(plane, levels, options, processed, &first.doubtful, &first.detection.targets, found)
+        }
+    };
+    let Pass { mut detection, mut grounds, occluded, .. } = first;
+    for target in second.softened.detection.targets.into_iter().chain(undone.detection.targets.iter().cloned()) {
+        search::tested_outlines::forget_rejected(&mut detection, &target);
+        detection.targets.push(target);
+    }
+    grounds.extend(second.softened.grounds);
+    // codes are read where their dots were measured: with the sharpening undone, or in the picture itself
+    let of_undone = detection.targets.len() - undone.detection.targets.len()..detection.targets.len();
     let first_left = detection.targets.len();
     detection.targets.extend(left);
     let left = first_left..detection.targets.len();
-    let mut in_undone = vec![false; detection.targets.len()];
-    detection.targets.extend(undone);
-    in_undone.resize(detection.targets.len(), true);
-    for target in hidden {
+    for target in occluded {
         if detection.targets.iter().all(|other| are_apart(&outline_of(other), &outline_of(&target))) {
             search::tested_outlines::forget_rejected(&mut detection, &target);
             detection.targets.push(target);
-            in_undone.push(false);
         }
     }
     let found = detection.targets.len();
-    for (grounds, of_undone) in [(grounds, false), (undone_grounds, true)] {
+    let mut add_grounds = |grounds: Vec<Target>| {
         for ground in grounds {
             // one pass's disc may be another's target
             if !detection.targets.iter().any(|other| is_same(other, &ground)) {
                 detection.targets.push(ground);
-                in_undone.push(of_undone);
             }
         }
-    }
-    let family = code::read_all(&mut detection.targets, options.codes, |k, target, families| match &softened {
-        Some(softened) if in_undone[k] => {
-            let target = Target { contrast: target.contrast * softened.scale, ..target.clone() };
-            let blur = target.quality.edge_width.hypot(RESTORED);
-            code::read(&softened.plane(), &target, blur, families)
+        detection.targets.len()
+    };
+    let ground_of_undone = add_grounds(grounds)..add_grounds(undone.grounds);
+    let size = plane.width.max(plane.height);
+    let family = code::read_all(&mut detection.targets, options.codes, |k, target, families| match &mut view {
+        Some(view) if of_undone.contains(&k) || ground_of_undone.contains(&k) => {
+            view.read_code(plane, target, families)
         }
-        _ => code::read(&plane, target, target.quality.edge_width, families),
+        _ => code::read(plane, size, target, target.quality.edge_width, families),
     });
     let taken_back = left.len() - code::keep_ringed(&mut detection, left, family);
     code::settle_grounds(&mut detection, found - taken_back, family);
     code::drop_parts(&mut detection, family);
     code::drop_sectors(&mut detection);
-    rims::settle(&plane, &levels, options, coloured, &mut detection);
-    detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
-    let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
-    Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
+    detection
+}
+
+fn outlines(targets: &[Target]) -> Vec<Outline> {
+    targets.iter().map(outline_of).collect()
 }
 
 /// Whether two measurements are of the same disc.
@@ -282,88 +335,27 @@ fn report(levels: &GreyStatistics, character: &Character, method: Method) -> Pic
     }
 }
 
-/// What a softened picture shows beyond the targets that are known; and, when the rims of all these show a sharpening, what it
-/// shows once that is undone, with that picture.
-fn soften<T: Sample>(
-    plane: &SampleView<T>,
-    levels: &GreyStatistics,
-    options: &DetectOptions,
-    known: &[Target],
-    picture: &mut PictureReport,
-    factors: &mut [f64; 2],
-) -> (Pass, Option<(Softened, Pass)>) {
-    picture.softened = true;
-    let (_, mut softened) = pass_softened(plane, levels, None, SOFT, options, known);
-    small_targets::drop_faint(&mut softened.detection.targets, known);
-    let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
-    let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
-        add(factors, softened.correlate());
-        return (softened, None);
-    };
-    (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
-    let (undone, mut restored) = pass_softened(plane, levels, Some(sharpening), RESTORED, options, known);
-    small_targets::drop_faint(&mut restored.detection.targets, known);
-    add(factors, restored.correlate());
-    add(factors, softened.correlate());
-    let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();
-    softened.detection.targets.retain(|target| taken.iter().all(|other| are_apart(&outline_of(target), other)));
-    (softened, Some((undone, restored)))
-}
-
 fn add(sum: &mut [f64; 2], other: [f64; 2]) {
     *sum = [sum[0] + other[0], sum[1] + other[1]];
 }
 
-/// One pass over a picture made of another one, in that one's grey levels.
-fn pass_softened<T: Sample>(
-    plane: &SampleView<T>,
-    own: &GreyStatistics,
-    sharpening: Option<Sharpening>,
-    sigma: f64,
-    options: &DetectOptions,
-    known: &[Target],
-) -> (Softened, Pass) {
-    let soft = Softened::of(plane, sharpening, sigma);
-    let levels = noise::levels_at(&soft.plane(), APART);
-    // a mean has no end of the scale, and no noise less than that of rounding
-    let levels = GreyStatistics {
-        saturation: f64::from(u16::MAX),
-        noise: levels.noise.max(ROUNDING * soft.scale),
-        stairs: false,
-        developed: own.developed,
-        ..levels
-    };
-    let mut passed = pass::pass(soft.plane(), levels, options, true, Some(sigma), known);
-    for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
-        target.contrast /= soft.scale;
-        target.quality.noise /= soft.scale;
-        // what the mean has added is none of the picture's
-        let own = target.quality.edge_width.powi(2) - sigma * sigma;
-        target.quality.edge_width = own.max(0.0).sqrt().max(BLUR.0);
-        if options.method == Method::LeastSquares {
-            target.quality.fit_rms /= soft.scale;
-        }
-    }
-    (soft, passed)
-}
-
 /// Small dots in rings of codes that only the picture itself shows: a mean joins them with their ring, and compression scatters their
-/// edges. `own` are the targets found there, `known` all. Only a ring around them makes targets of them: letters have such shapes too.
-/// Where a picture is not `processed` what lies around each was its background already.
+/// edges. `own` are the targets found there, `others` those of the second look. Only a ring around them makes targets of them: letters have
+/// such shapes too. Where a picture is not `processed` what lies around each was its background already.
 fn in_rings<'a, T: Sample>(
-    plane: SampleView<T>,
-    levels: GreyStatistics,
+    plane: &SampleView<T>,
+    levels: &GreyStatistics,
     options: &DetectOptions,
     processed: bool,
     doubtful: &[Outline],
-    own: &[Target],
-    known: impl Iterator<Item = &'a Target>,
+    own: &'a [Target],
+    others: impl Iterator<Item = &'a Target>,
 ) -> Vec<Target> {
-    let mut measure = Measure::new(plane, levels, options);
+    let mut measure = Measure::new(*plane, *levels, options);
     measure.work.coloured = processed;
-    let Some(common) = small_targets::of(&mut measure, &[], own) else { return Vec::new() };
+    let Some(common) = small_targets::of(&measure, own) else { return Vec::new() };
     let mut tested = TestedOutlines::new(plane.width, plane.height, code::have_spots(options.codes));
-    known.for_each(|target| tested.know(target));
+    own.iter().chain(others).for_each(|target| tested.know(target));
     let mut colours = Vec::new();
     let wanted = if processed { ExpectedShape::InRingOrWide } else { ExpectedShape::InRing };
     pass::take_small_targets(&mut measure, &mut tested, &mut colours, doubtful, &common, wanted);

@@ -189,18 +189,6 @@ pub(crate) mod partial {
     }
 }
 
-/// Blobs that are wider where a target is.
-pub(crate) mod bulge {
-    use super::Source;
-
-    table! {
-        /// Minimum width of a target's rows over that of the others.
-        WIDER: f32 = 1.4, Judged "a cable is at most half as wide as what it crosses; less are bends and steps of a bar";
-        /// Shares of the rows up to which they may be the narrow ones, one after the other.
-        NARROW: [f64; 3] = [0.1, 0.3, 0.5], Judged "a cable that ends at the target's rim, one as long as the target beyond it, and longer";
-    }
-}
-
 /// The first look at a blob: sixteen directions, two pixels each.
 pub(crate) mod quick_test {
     use super::Source;
@@ -436,24 +424,15 @@ pub(crate) mod small_targets {
         NOISY_RIMS: [f64; 2] = [1.3, 2.0], Judged "in-camera denoising leaves noise at edges: without the first, errors are 2.5 sigmas; without the second, `edge_noise.png` of the cases loses 22 of 35 dots";
         /// Maximum ratio of the contrasts of a photo's targets.
         CONTRASTS: f64 = 2.5, Judged "light falls off, and so does what blur leaves of the smallest; 40 random cameras of `photos`";
-        /// Share of its contrast visible in the middle of a disc, below which blur reaches the middle, and maximum ratio of contrasts then.
-        SEEN: f64 = 0.9, Derived "no pixel shows the contrast itself";
-        CONTRASTS_SWALLOWED: f64 = 1.75, Measured "of 1900 targets found so in random cameras and webcam grids of `photos` three true ones and one false one are fainter";
         /// Minimum standard deviations of blur and of contrast among targets, as shares.
         BLURS: f64 = 0.06, Judged "as above";
         SHADES: f64 = 0.15, Judged "as above";
-        /// Maximum residuals, in units of those of the known targets; addition to them as a share of the contrast; and maximum part that varies
-        /// around the rim, in the same units.
+        /// Maximum residuals, in units of those of the known targets, and addition to them as a share of the contrast.
         AS_GOOD: f64 = 1.5, Judged "as above";
         PROFILE: f64 = 0.04, Judged "as above";
-        UNEVEN: f64 = 0.6, Judged "as above";
-        /// Residuals, in units of that maximum, above which a fit is given up; and the same if the contrast is estimated by the fit itself.
-        HOPELESS: f64 = 2.0, Judged "the residuals predicted by the first correction are that close to the final ones";
-        HOPELESS_OWN: f64 = 3.0, Measured "of 879 targets found so in a hundred pictures of `photos` none had a prediction above 2.7";
-        /// Minimum contrast that blur leaves in the middle, in units of the residuals; and that of the whole disc times the square root of its
-        /// number of pixels.
-        PLAIN: f64 = 4.0, Judged "smaller ones occur by chance; pictures without targets of `photos`";
-        CLEAR: f64 = 16.0, Judged "as above";
+        /// Residuals that the first correction of a fit promises, in units of that maximum at the contrast that it promises, above which the fit
+        /// is given up.
+        HOPELESS: f64 = 3.0, Measured "of 879 targets found so in a hundred pictures of `photos` none had a prediction above 2.7";
         /// Minimum share of the expected contrast at a position for a fit.
         LIGHT: f64 = 0.5, Judged "the level of the background is uncertain";
         /// Share of its contrast, exceeded in a quarter and in an eighth of the directions around a disc, above which it touches another object.
@@ -468,8 +447,6 @@ pub(crate) mod small_targets {
         GAP_LACKS: f64 = 0.5, Derived "half-way";
         /// Largest share of pixels that neighbours may disturb.
         DISTURBED: f64 = 0.25, Judged "neighbours at a pitch of 2.5 radii, `photos -- conditions`; 0.45 shows a false target more in two of the webcam grids";
-        /// Maximum deviation of the blur from that of the known targets: in standard deviations, and as a share.
-        BLUR: [f64; 2] = [3.0, 0.1], Judged "chance, and focus over the photo";
         /// Maximum distance of the fitted centre from that of the blob: pixels, and share of the semi-minor axis; during the iterations twice
         /// that.
         MOVED: [f64; 2] = [1.0, 0.3], Judged "40 random cameras of `photos`";

@@ -56,9 +56,11 @@ pub(super) fn outline_of(target: &Target) -> Outline {
     Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
 }
 
-/// Reads the ring around a target, whose edges have this blur in the picture, as a code of each of the families.
+/// Reads the ring around a target, whose edges have this blur in the picture, as a code of each of the families; `size` is the larger side of
+/// the whole photo.
 pub(super) fn read<T: Sample>(
     plane: &SampleView<T>,
+    size: usize,
     target: &Target,
     blur: f64,
     families: &[Family],
@@ -68,7 +70,6 @@ pub(super) fn read<T: Sample>(
     }
     // whether the levels are light or a camera's tone curve has bent them: each family is judged by what explains it best
     let bent = light::of_screen(plane, target, blur);
-    let size = plane.width.max(plane.height);
     let as_is = Around::of(plane, target, blur, size);
     let in_light = bent.as_ref().map(|(part, target)| (part.plane(), target));
     let in_light = in_light.as_ref().map(|(plane, target)| Around::of(plane, target, blur, size));

@@ -130,8 +130,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             blur: limits::IN_FOCUS,
             contrast: [contrast, limits::LOOSE * contrast.abs()],
             noise: self.noise(&found.surround),
-            largest_rms: f64::INFINITY,
-            largest_of_own: [f64::INFINITY, 0.0],
+            largest_rms: [f64::INFINITY, 0.0],
         });
         let again = self.measured(found, method);
         self.prior = None;

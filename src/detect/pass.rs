@@ -56,19 +56,15 @@ impl Pass {
     }
 }
 
-/// One pass: what is found beyond the targets that are known. `soft`: of a picture that was made of another one, the sigma in pixels of the mean
-/// that made it; what something hides in part is looked for in the other one.
+/// One pass over a picture. `coloured`: whether neighbouring pixels may share their noise.
 pub(super) fn pass<T: Sample>(
     plane: SampleView<T>,
     levels: GreyStatistics,
     options: &DetectOptions,
     coloured: bool,
-    soft: Option<f64>,
-    known: &[Target],
 ) -> Pass {
-    let blobs = search::search(&plane, &levels, options, soft.is_none());
+    let blobs = search::search(&plane, &levels, options, true);
     let mut tested = TestedOutlines::new(plane.width, plane.height, code::have_spots(options.codes));
-    known.iter().for_each(|target| tested.know(target));
     tested.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
     for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
         tested.add(Reason::TooSmall, *too_small);
@@ -79,7 +75,6 @@ pub(super) fn pass<T: Sample>(
     }
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = coloured;
-    measure.work.mean = soft.unwrap_or_default();
     let (mut colours, mut uneven) = (Vec::new(), Vec::new());
     let mut doubtful: Vec<Outline> = Vec::new();
     let mut occluded: Vec<Candidate> = Vec::new();
@@ -129,8 +124,8 @@ pub(super) fn pass<T: Sample>(
             tested.targets.iter_mut().for_each(|target| widen(target, rim_noise));
         }
     }
-    if let Some(common) = small_targets::of(&mut measure, known, &tested.targets) {
-        if soft.is_some() || common.swallows() {
+    if let Some(common) = small_targets::of(&measure, &tested.targets) {
+        if common.swallows() {
             take_small_targets(&mut measure, &mut tested, &mut colours, &doubtful, &common, ExpectedShape::Disc);
         } else if rim_noise > hiding {
             // noise makes small shapes look like discs: texture that is like one is smaller or flatter than what is asked for
@@ -172,7 +167,7 @@ fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -
 }
 
 /// The outline, as far as it is known, of something without a shape that may still be a target by what the others show.
-fn disc(no: &NoBlob, options: &DetectOptions) -> Option<Outline> {
+pub(super) fn disc(no: &NoBlob, options: &DetectOptions) -> Option<Outline> {
     let radius = no.diameter / 2.0;
     let round = || Outline::from_axes(no.u, no.v, radius, radius, 0.0);
     // blur makes small discs look larger, noise smaller

@@ -31,9 +31,9 @@ use crate::detection::{
 };
 use crate::image::{Sample, SampleView};
 
-/// Rays on which an outer rim is looked for, and the distance of two places on them: in pixels, and at least in semi-major axes of the hole.
+/// Rays on which an outer rim is looked for, and the part of a pixel between two places on them.
 const RAYS: usize = 48;
-const STEP: [f64; 2] = [0.5, 1.0 / 24.0];
+const STEP: f64 = 0.5;
 /// Pixels beside the outer rim that are copied: what lies around a target up to its own size is its background.
 const BESIDE: f64 = 40.0;
 
@@ -223,7 +223,6 @@ fn rim_around<T: Sample>(
     let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
     let rise = (RETURNS * target.contrast).max(CLEAR * levels.noise.max(target.quality.noise));
     let farthest = FARTHEST * hole.semi_axes().0;
-    let step = STEP[0].max(STEP[1] * hole.semi_axes().0);
     let mut places = Vec::with_capacity(RAYS);
     for k in 0..RAYS {
         if (k - places.len()) as f64 > (1.0 - SEEN) * RAYS as f64 {
@@ -246,7 +245,7 @@ fn rim_around<T: Sample>(
                 places.push([x, y, 1.0]);
                 break;
             }
-            at += step;
+            at += STEP;
         }
     }
     let away = |[x, y, _]: &[f64; 3]| {

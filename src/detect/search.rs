@@ -8,7 +8,6 @@
 //! too, for what is large or so far out of focus that three pixels do not cross its edge.
 
 pub(crate) mod blob;
-mod bulge;
 mod component;
 mod partial;
 mod scan;
@@ -255,18 +254,12 @@ impl Blobs {
                 }
                 // one that is occluded in part, divided, or joined with what lies in front of it
                 if self.hidden
-                    && matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat | Reason::TooLarge)
+                    && no.reason == Reason::NotAnEllipse
                     && let [first, .., last] = chain
                     && tried.insert([first.x0, first.x1, first.y, last.x0, last.x1, last.y].map(f32::to_bits))
                 {
-                    let most = (no.reason == Reason::NotAnEllipse).then(|| partial::most(chain, limits)).flatten();
-                    match most {
-                        Some(outline) => self.partial.push(Candidate { outline, bright }),
-                        None => {
-                            let bulges = bulge::bulges(chain, limits).into_iter();
-                            self.partial.extend(bulges.map(|outline| Candidate { outline, bright }));
-                        }
-                    }
+                    let most = partial::most(chain, limits);
+                    self.partial.extend(most.map(|outline| Candidate { outline, bright }));
                 }
                 match no.reason {
                     Reason::TooSmall => self.too_small += 1,

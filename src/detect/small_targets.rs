@@ -10,7 +10,7 @@
 
 use super::acceptance::{levels::ROUNDING, size::FIT_SMALL, small_targets as limits};
 use super::adaptive_moments::{self, AdaptiveMoments};
-use super::code::{may_be_in_ring, outline_of};
+use super::code::may_be_in_ring;
 use super::edges::surround::{self, Glance};
 use super::ellipse::outline::Outline;
 use super::measure::Measure;
@@ -18,7 +18,7 @@ use super::picture::noise::GreyStatistics;
 use super::rendered::band::{PixelRegion, Prior};
 use super::rendered::fit::{self, Fit};
 use crate::detection::{Method, Polarity, Quality, Reason, Target};
-use crate::image::Sample;
+use crate::image::{Sample, SampleView};
 
 /// Half the width, in units of the blur, of the band of pixels that are fitted: beyond it the light of neighbours is more than what
 /// is left of the rim's own.
@@ -28,7 +28,7 @@ const APART: f64 = 0.7;
 /// Half the width, at half its height, of a Gaussian of standard deviation 1.
 const HALF: f64 = 1.18;
 /// Maximum number of known targets that are measured again.
-const MEASURED: usize = 40;
+pub(crate) const MEASURED: usize = 40;
 /// Corrections in pixels that end the fit.
 const CONVERGED: f64 = 1e-3;
 
@@ -107,6 +107,28 @@ impl CommonProperties {
     fn least_contrast(&self, outline: &Outline) -> f64 {
         let (a, b) = outline.semi_axes();
         limits::LIGHT * self.seen(a, b) * self.contrast[0] / limits::CONTRASTS
+    }
+
+    /// Whether what has this outline stands out from all that lies around it: most blobs have the other polarity, or are only a part of a
+    /// larger shape.
+    fn stands_alone<T: Sample>(&self, plane: &SampleView<T>, outline: &Outline) -> Result<(), Reason> {
+        let glance = surround::glance(plane, outline, APART * self.blur[0], self.bright);
+        let Some(Glance { contrast, joined }) = glance else { return Ok(()) };
+        if contrast < self.least_contrast(outline) {
+            return Err(Reason::LowContrast);
+        }
+        match joined.iter().zip(limits::JOINED).any(|(joined, most)| *joined > most) {
+            true => Err(Reason::Touching),
+            false => Ok(()),
+        }
+    }
+
+    /// The same of a blob in a picture of half the size, whose blur has this variance more than that of what is known, in pixels of the whole one.
+    pub fn stands_alone_halved<T: Sample>(&self, plane: &SampleView<T>, seen: &Outline, more: f64) -> bool {
+        let blur = self.blur.map(|blur| blur / 2.0);
+        let halved = Self { blur: [(blur[0] * blur[0] + more / 4.0).sqrt(), blur[1]], ..*self };
+        let seen = Outline { u: seen.u / 2.0, v: seen.v / 2.0, ..seen.scaled(0.5) };
+        seen.is_proper() && halved.stands_alone(plane, &halved.within(&seen)).is_ok()
     }
 
     /// A first outline of a blob with this outline: blur makes small discs look larger.
@@ -197,17 +219,8 @@ impl<T: Sample> Measure<'_, T> {
         self.has_room(&outline)?;
         let sign = if common.bright { 1.0 } else { -1.0 };
         let least = common.least_contrast(&outline);
-        // most blobs have the other polarity, or are only a part of a larger shape
-        if ground == Ground::Wide
-            && let Some(Glance { contrast, joined }) =
-                surround::glance(&self.plane, &outline, APART * common.blur[0], common.bright)
-        {
-            if contrast < least {
-                return Err(Reason::LowContrast);
-            }
-            if joined.iter().zip(limits::JOINED).any(|(joined, most)| *joined > most) {
-                return Err(Reason::Touching);
-            }
+        if ground == Ground::Wide {
+            common.stands_alone(&self.plane, &outline)?;
         }
         let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
         let mut around = self.level_on(ground, &outline, common, &kept)?;
@@ -218,8 +231,7 @@ impl<T: Sample> Measure<'_, T> {
             blur: common.blur,
             contrast: [sign * common.contrast[0], common.contrast[1]],
             noise: common.rms,
-            largest_rms: limits::HOPELESS * (limits::AS_GOOD * common.rms + limits::PROFILE * common.contrast[0]),
-            largest_of_own: [limits::AS_GOOD * common.rms, limits::PROFILE].map(|part| limits::HOPELESS_OWN * part),
+            largest_rms: [limits::AS_GOOD * common.rms, limits::PROFILE].map(|part| limits::HOPELESS * part),
         };
         let mut found: Option<Fit> = None;
         // the second time with the pixels of the outline that the first one has found
@@ -300,24 +312,13 @@ impl<T: Sample> Measure<'_, T> {
         if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
-        let shown = common.seen(a, b);
-        let peak = shown * contrast;
-        // of what blur has swallowed the contrast is nearly only that of the others
-        let contrasts = if shown < limits::SEEN { limits::CONTRASTS_SWALLOWED } else { limits::CONTRASTS };
-        let pixels = std::f64::consts::PI * (a * b + 2.0 * common.blur[0].powi(2));
-        if !(common.contrast[0] / contrasts..common.contrast[0] * contrasts).contains(&contrast)
-            || peak < limits::PLAIN * common.rms
-            || peak * pixels.sqrt() < limits::CLEAR * common.rms
-        {
+        let peak = common.seen(a, b) * contrast;
+        if !(common.contrast[0] / limits::CONTRASTS..common.contrast[0] * limits::CONTRASTS).contains(&contrast) {
             return Err(Reason::LowContrast);
         }
-        let misfit = (fit.uneven.powi(2) - common.rms.powi(2)).max(0.0).sqrt();
         let moved = (fit.outline.u - seen.u).hypot(fit.outline.v - seen.v);
-        let [blur, spread] = common.blur;
         let good = fit.rms <= limits::AS_GOOD * common.rms + limits::PROFILE * peak
-            && misfit <= limits::UNEVEN * common.rms + limits::PROFILE * peak
             && fit.disturbed <= limits::DISTURBED
-            && (fit.blur - blur).abs() <= limits::BLUR[0] * spread + limits::BLUR[1] * blur
             && moved <= farthest(seen);
         if good { Ok(()) } else { Err(Reason::NotAnEllipse) }
     }
@@ -390,17 +391,8 @@ pub(crate) fn drop_faint(found: &mut Vec<Target>, known: &[Target]) {
     }
 }
 
-/// What the targets of a picture have in common, of those found in it and of those that are known from elsewhere, which are
-/// measured in it. Only the fit of a rendered ellipse has a model to compare with.
-pub(crate) fn of<T: Sample>(measure: &mut Measure<T>, known: &[Target], found: &[Target]) -> Option<CommonProperties> {
-    if measure.options.method != Method::LeastSquares {
-        return None;
-    }
-    let mut all = found.to_vec();
-    for target in known.iter().take(MEASURED) {
-        let bright = target.polarity == Polarity::Bright;
-        let found = measure.confirm(&outline_of(target), bright);
-        all.extend(found.and_then(|found| measure.finish(&found, Method::LeastSquares)));
-    }
-    CommonProperties::of(all.iter(), measure.levels.noise)
+/// What the targets of a picture have in common. Only the fit of a rendered ellipse has a model to compare with.
+pub(crate) fn of<T: Sample>(measure: &Measure<T>, found: &[Target]) -> Option<CommonProperties> {
+    let has_model = measure.options.method == Method::LeastSquares;
+    has_model.then(|| CommonProperties::of(found.iter(), measure.levels.noise)).flatten()
 }

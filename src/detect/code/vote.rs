@@ -20,14 +20,15 @@ use crate::ring_code::Family;
 
 /// Reads the codes of all targets of a photo in one picture.
 pub(crate) fn read_in<T: Sample>(plane: &SampleView<T>, targets: &mut [Target], codes: Codes) {
-    read_all(targets, codes, |_, target, families| read(plane, target, target.quality.edge_width, families));
+    let size = plane.width.max(plane.height);
+    read_all(targets, codes, |_, target, families| read(plane, size, target, target.quality.edge_width, families));
 }
 
 /// Settles the codes of all targets of a photo, each of which `read` reads as a code of every family; the family that they are of.
 pub(crate) fn read_all(
     targets: &mut [Target],
     codes: Codes,
-    read: impl Fn(usize, &Target, &[Family]) -> Vec<CodeReading>,
+    mut read: impl FnMut(usize, &Target, &[Family]) -> Vec<CodeReading>,
 ) -> Option<Family> {
     let families = codes.families();
     if families.is_empty() {

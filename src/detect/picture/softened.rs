@@ -10,6 +10,7 @@ use wide::f32x4;
 
 use super::mean::{LANES, Levels, kernel, side};
 use super::sharpening::Sharpening;
+use crate::detect::window::Window;
 use crate::image::{Sample, SampleView};
 
 /// What a grey level of 8 bits becomes: the fractions that a mean has are kept.
@@ -18,12 +19,9 @@ const FINE: f64 = 128.0;
 /// Maximum amplification at any frequency when a sharpening is undone: with two means at k = 1, three at 2.
 const LEFT: f64 = 0.0115;
 
-/// Rows of a strip, in those that are read beyond it on each side: a third of all is read twice.
-const STRIP: usize = 6;
-
 /// A picture of 16 bits made of another one.
 pub(crate) struct Softened {
-    samples: Vec<u16>,
+    pub samples: Vec<u16>,
     width: usize,
     height: usize,
     /// Its levels per level of the picture.
@@ -32,51 +30,54 @@ pub(crate) struct Softened {
 
 impl Softened {
     /// The picture with its sharpening undone, if there is one, and then a Gaussian mean of this sigma in pixels.
-    ///
-    /// Strip by strip: in fractions a large picture would take several times its own memory. A strip reads as many rows beyond its own
-    /// as the means reach, so that every sample is that of the picture taken whole.
     pub fn of<T: Sample>(plane: &SampleView<T>, sharpening: Option<Sharpening>, sigma: f64) -> Self {
-        let reach = reach(sharpening, sigma);
-        Self::in_strips(plane, sharpening, sigma, (STRIP * reach).max(1))
-    }
-
-    fn in_strips<T: Sample>(plane: &SampleView<T>, sharpening: Option<Sharpening>, sigma: f64, rows: usize) -> Self {
         let (width, height) = (plane.width, plane.height);
-        let reach = reach(sharpening, sigma);
         let scale = if T::MAX < 256 { FINE } else { 1.0 };
         let most = (f64::from(T::MAX) * scale) as f32;
         let mut samples = vec![0; width * height];
-        let (mut levels, mut sharpened) = (Levels::of(width), Levels::of(width));
-        let inverse = sharpening.map(|sharpening| (kernel(sharpening.radius), inverse(sharpening.amount)));
-        let mean = if sigma > 0.0 { kernel(sigma) } else { vec![1.0] };
-        for (strip, samples) in samples.chunks_mut(rows * width).enumerate() {
-            let top = strip * rows;
-            let bottom = (top + rows).min(height);
-            let read = top.saturating_sub(reach)..(bottom + reach).min(height);
-            levels.take(plane, read.clone());
-            if let Some((kernel, factors)) = &inverse
-                && let Some((highest, others)) = factors.split_last()
-            {
+        let mut levels = Levels::of(width);
+        levels.take(plane, 0..height);
+        if let Some(sharpening) = sharpening {
+            let (kernel, factors) = (kernel(sharpening.radius), inverse(sharpening.amount));
+            if let Some((highest, others)) = factors.split_last() {
+                let mut sharpened = Levels::of(width);
                 sharpened.scaled(&levels, 1.0);
                 levels.scaled(&sharpened, *highest);
-                others.iter().rev().for_each(|factor| levels.convolve(kernel, *factor, &sharpened));
+                others.iter().rev().for_each(|factor| levels.convolve(&kernel, *factor, &sharpened));
             }
-            let own = top - read.start..bottom - read.start;
-            levels.across(&mean);
-            levels.down(&mean, own.clone(), |x, y, sums| {
-                let end = (x + LANES).min(width);
-                let to = &mut samples[(y - own.start) * width..][x..end];
-                let fours = sums.map(|sum| {
-                    let bounded = (sum * f32x4::splat(scale as f32)).fast_max(f32x4::ZERO).fast_min(f32x4::splat(most));
-                    // to the nearest whole number; the rounding of the language is a call for every sample
-                    (bounded + f32x4::splat(0.5)).fast_trunc_int().to_array()
-                });
-                for (to, level) in to.iter_mut().zip(fours.as_flattened()) {
-                    *to = *level as u16;
-                }
-            });
         }
+        let mean = if sigma > 0.0 { kernel(sigma) } else { vec![1.0] };
+        levels.across(&mean);
+        levels.down(&mean, 0..height, |x, y, sums| {
+            let end = (x + LANES).min(width);
+            let to = &mut samples[y * width + x..y * width + end];
+            let fours = sums.map(|sum| {
+                let bounded = (sum * f32x4::splat(scale as f32)).fast_max(f32x4::ZERO).fast_min(f32x4::splat(most));
+                // to the nearest whole number; the rounding of the language is a call for every sample
+                (bounded + f32x4::splat(0.5)).fast_trunc_int().to_array()
+            });
+            for (to, level) in to.iter_mut().zip(fours.as_flattened()) {
+                *to = *level as u16;
+            }
+        });
         Self { samples, width, height, scale }
+    }
+
+    /// A part of that picture, from a pixel on.
+    pub fn part<T: Sample>(
+        plane: &SampleView<T>,
+        sharpening: Option<Sharpening>,
+        sigma: f64,
+        [left, top]: [usize; 2],
+        [width, height]: [usize; 2],
+    ) -> Self {
+        let reach = reach(sharpening, sigma);
+        let [x, y] = [left.saturating_sub(reach), top.saturating_sub(reach)];
+        let [end, bottom] = [(left + width + reach).min(plane.width), (top + height + reach).min(plane.height)];
+        let wider = Window::at(plane, [x, y], [end - x, bottom - y]);
+        let Self { samples, scale, .. } = Self::of(&wider.plane(), sharpening, sigma);
+        let part = Window::at(&SampleView::new(end - x, bottom - y, &samples), [left - x, top - y], [width, height]);
+        Self { samples: part.samples, width, height, scale }
     }
 
     /// Its samples.
@@ -88,6 +89,33 @@ impl Softened {
 /// How far a sample depends on others.
 fn reach(sharpening: Option<Sharpening>, sigma: f64) -> usize {
     side(sigma) + sharpening.map_or(0, |sharpening| (inverse(sharpening.amount).len() - 1) * side(sharpening.radius))
+}
+
+/// The softened picture at half of its size, of means of two by two pixels.
+///
+/// Band by band, each with the rows beyond it that its means need: what is computed then stays near the processor.
+pub(crate) fn halved<T: Sample>(plane: &SampleView<T>, sigma: f64) -> Softened {
+    const BAND: usize = 64;
+    // the mean of four pixels has a variance already, a quarter of a pixel of the whole picture
+    let sigma = (sigma * sigma - 0.25).max(0.0).sqrt() / 2.0;
+    let (width, height) = (plane.width / 2, plane.height / 2);
+    let fine = if T::MAX < 256 { FINE as u32 } else { 1 };
+    let (mut samples, mut means) = (Vec::with_capacity(width * height), Vec::new());
+    for top in (0..height).step_by(BAND) {
+        let bottom = (top + BAND).min(height);
+        let rows = top.saturating_sub(side(sigma))..(bottom + side(sigma)).min(height);
+        means.clear();
+        for y in rows.clone() {
+            let (upper, lower) = (plane.row(2 * y).as_chunks::<2>().0, plane.row(2 * y + 1).as_chunks::<2>().0);
+            means.extend(upper.iter().zip(lower).map(|([a, b], [c, d])| {
+                let sum = a.level() + b.level() + c.level() + d.level();
+                ((fine * sum + 2) / 4) as u16
+            }));
+        }
+        let band = Softened::of(&SampleView::new(width, rows.len(), &means), None, sigma);
+        samples.extend_from_slice(&band.samples[(top - rows.start) * width..][..(bottom - top) * width]);
+    }
+    Softened { samples, width, height, scale: f64::from(fine) }
 }
 
 /// Factors of the powers of the mean, from its zeroth on, whose sum undoes a sharpening of this amount; what is even stays as it is.
@@ -123,14 +151,31 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_are_the_picture_taken_whole() {
-        let noise: Vec<u8> = (0..37u32 * 90).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
-        let plane = SampleView::new(37, 90, &noise);
+    fn a_part_is_that_of_the_picture_taken_whole() {
+        let noise: Vec<u8> = (0..61u32 * 90).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+        let plane = SampleView::new(61, 90, &noise);
         for sharpening in [None, Some(Sharpening { amount: 1.2, radius: 0.5 })] {
-            let whole = Softened::in_strips(&plane, sharpening, 0.7, 90);
-            for rows in [1, 16, 41] {
-                assert!(Softened::in_strips(&plane, sharpening, 0.7, rows).samples == whole.samples, "{rows} rows");
+            let whole = Softened::of(&plane, sharpening, 0.7);
+            for (place, size) in [([0, 0], [16, 20]), ([30, 41], [31, 17]), ([17, 73], [16, 17])] {
+                let part = Softened::part(&plane, sharpening, 0.7, place, size);
+                assert!(part.samples == Window::at(&whole.plane(), place, size).samples, "{place:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_halved_picture_is_every_second_sample_of_the_softened_one() {
+        // a slope and a wave of 14 pixels, as fine as a softened picture shows
+        let level =
+            |k: usize| 100.0 + (k % 150) as f64 / 3.0 + 40.0 * ((k / 150) as f64 / 14.0 * std::f64::consts::TAU).sin();
+        let samples: Vec<u8> = (0..150 * 201).map(|k| level(k) as u8).collect();
+        let plane = SampleView::new(150, 201, &samples);
+        let (whole, half) = (Softened::of(&plane, None, 1.6), halved(&plane, 1.6));
+        assert_eq!((half.width, half.height, half.scale), (75, 100, 128.0));
+        for (x, y) in (5..70).flat_map(|x| (5..95).map(move |y| (x, y))) {
+            let at = |x: usize, y: usize| i64::from(whole.samples[y * 150 + x]);
+            let mean = (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)) / 4;
+            assert!((mean - i64::from(half.samples[y * 75 + x])).abs() < 128, "{x} {y}");
         }
     }
 

@@ -58,10 +58,9 @@ pub(crate) struct Prior {
     pub blur: [f64; 2],
     pub contrast: [f64; 2],
     pub noise: f64,
-    /// Rms of the residuals from which the fit is given up: that which its corrections promise, at the best.
-    pub largest_rms: f64,
-    /// The same for a contrast of its own: a constant, and a part of the contrast that they promise.
-    pub largest_of_own: [f64; 2],
+    /// Rms of the residuals above which the fit is given up, of those that its corrections promise: a constant, and a part of the contrast that
+    /// they promise.
+    pub largest_rms: [f64; 2],
 }
 
 impl Prior {
@@ -72,9 +71,9 @@ impl Prior {
 
     /// Whether a fit is given up that promises this rms and this contrast.
     pub fn is_hopeless(&self, rms: f64, contrast: f64) -> bool {
-        let [constant, part] = self.largest_of_own;
+        let [constant, part] = self.largest_rms;
         let shown = (contrast * self.contrast[0].signum()).clamp(0.0, self.contrast[0].abs());
-        rms > self.largest_rms || rms > constant + part * shown
+        rms > constant + part * shown
     }
 
     pub fn add_normal(&self, normal: &mut NormalMatrix) {
@@ -499,12 +498,12 @@ mod tests {
     fn what_promises_residuals_too_large_for_its_contrast_is_hopeless() {
         for sign in [1.0, -1.0] {
             let contrast = [sign * 50.0, 5.0];
-            let prior = Prior { blur: [1.0, 0.1], contrast, noise: 1.0, largest_rms: 8.0, largest_of_own: [4.0, 0.1] };
+            let prior = Prior { blur: [1.0, 0.1], contrast, noise: 1.0, largest_rms: [4.0, 0.1] };
             for (rms, contrast, hopeless) in [
-                (7.9, 50.0, false),
-                (8.1, 50.0, true),
+                (8.9, 50.0, false),
+                (9.1, 50.0, true),
                 // more contrast than that of the others excuses no more
-                (8.1, 90.0, true),
+                (9.1, 90.0, true),
                 (5.9, 20.0, false),
                 (6.1, 20.0, true),
                 (4.1, -50.0, true),

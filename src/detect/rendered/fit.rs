@@ -59,7 +59,7 @@ pub(crate) struct Fit {
 }
 
 /// What the noise of neighbouring pixels does to a fit is computed from.
-struct Fitted {
+struct LastFit {
     cofactors: NormalMatrix,
     contrast: f64,
     outline: Outline,
@@ -79,7 +79,7 @@ pub(crate) struct Workspace {
     /// Whether the last fit was given up for what its corrections promised.
     pub hopeless: bool,
     /// Of the last fit, if it led to a result.
-    fitted: Option<Fitted>,
+    last: Option<LastFit>,
 }
 
 /// Outline, blur and levels of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
@@ -234,7 +234,7 @@ pub(crate) fn fit<T: Sample>(
         // the light is known to about its own size
         covariance = [covariance[0] + pu * pu, covariance[1] + pu * pv, covariance[2] + pv * pv];
     }
-    work.fitted = Some(Fitted { cofactors, contrast: state.lit.contrast, outline: state.outline });
+    work.last = Some(LastFit { cofactors, contrast: state.lit.contrast, outline: state.outline });
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
         outline,
         blur: state.blur,
@@ -254,7 +254,7 @@ impl Workspace {
         region: &PixelRegion,
         blur: f64,
     ) -> Option<(FitState, Flats)> {
-        self.fitted = None;
+        self.last = None;
         let surround = region.surround;
         let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
         let state = FitState {
@@ -274,13 +274,13 @@ impl Workspace {
 
     /// Noise autocorrelation of the last fit; `None` without one, or where neighbouring pixels are not known to share their noise.
     pub fn noise_products(&self) -> Option<NoiseProducts> {
-        let Fitted { cofactors, contrast, outline } = self.fitted.as_ref().filter(|_| self.coloured)?;
+        let LastFit { cofactors, contrast, outline } = self.last.as_ref().filter(|_| self.coloured)?;
         self.band.colour(&self.field, cofactors, *contrast, outline, self.origin, self.mean)
     }
 
     /// No fit belongs to what is measured.
     pub fn forget(&mut self) {
-        self.fitted = None;
+        self.last = None;
     }
 
     /// Renders the model at the state and takes it off the pixels; `None` if it leaves the field.

@@ -60,8 +60,7 @@ impl ResidualCovariance {
         if mean <= 0.0 {
             return Some(Self { own, other: None, to_centre, trace, natural: 1.0 });
         }
-        let mut other = own.clone();
-        convolve(&mut other, field.width, mean);
+        let mut other = correlated(&own, band, field.width, mean);
         let (mut through, mut plain) = (NormalMatrix::zeros(), NormalMatrix::zeros());
         for &(row, column, length) in &band.spans {
             let span = row * field.width + column..row * field.width + column + length;
@@ -139,23 +138,39 @@ pub(super) fn correlation(dx: i32, dy: i32, mean: f64) -> f64 {
     }
 }
 
-/// P K: rows, then columns.
-fn convolve(rows: &mut Vec<Row>, width: usize, mean: f64) {
-    let side = (3.5 * std::f64::consts::SQRT_2 * mean).ceil() as i32;
-    let kernel: Vec<f32> = (-side..=side).map(|t| correlation(t, 0, mean) as f32).collect();
-    for (step, count) in [(1, width), (width, rows.len() / width.max(1))] {
-        let mut sums = vec![Row::default(); rows.len()];
-        for (at, to) in sums.iter_mut().enumerate() {
-            let place = (at / step % count) as i32;
-            let first = (-side).max(-place);
-            for t in first..=side.min(count as i32 - 1 - place) {
-                let from = &rows[(at as i64 + i64::from(t) * step as i64) as usize];
-                let weight = f32x4::splat(kernel[(t + side) as usize]);
-                for (to, from) in to.iter_mut().zip(from) {
-                    *to = (f32x4::new(*to) + weight * f32x4::new(*from)).to_array();
-                }
+/// P K at the pixels of the band, and zeros elsewhere: along rows, then along columns.
+fn correlated(rows: &[Row], band: &Band, width: usize, mean: f64) -> Vec<Row> {
+    let side = (3.5 * std::f64::consts::SQRT_2 * mean).ceil() as usize;
+    let kernel: Vec<f32x4> = (0..=side).map(|t| f32x4::splat(correlation(t as i32, 0, mean) as f32)).collect();
+    let mut along = vec![Row::default(); rows.len()];
+    for &(row, column, length) in &band.spans {
+        for from in column..column + length {
+            let values = rows[row * width + from].map(f32x4::new);
+            let reached = from.saturating_sub(side)..(from + side + 1).min(width);
+            for (at, to) in reached.clone().zip(&mut along[row * width..][reached]) {
+                let weight = kernel[at.abs_diff(from)];
+                *to = std::array::from_fn(|four| (f32x4::new(to[four]) + weight * values[four]).to_array());
             }
         }
-        *rows = sums;
     }
+    let mut both = vec![Row::default(); rows.len()];
+    let last = rows.len() / width.max(1);
+    let mut k = 0;
+    for &(row, column, length) in &band.spans {
+        for at in column..column + length {
+            k += 1;
+            if band.kept[k - 1] <= 0.0 {
+                continue;
+            }
+            let mut sums = [f32x4::ZERO; FOURS];
+            for from in row.saturating_sub(side)..(row + side + 1).min(last) {
+                let weight = kernel[from.abs_diff(row)];
+                for (sum, values) in sums.iter_mut().zip(along[from * width + at]) {
+                    *sum += weight * f32x4::new(values);
+                }
+            }
+            both[row * width + at] = sums.map(f32x4::to_array);
+        }
+    }
+    both
 }

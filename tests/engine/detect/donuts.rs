@@ -23,7 +23,7 @@ fn square(target: [f64; 2], sigma: [f64; 2], spot: &Spot) -> f64 {
 /// centres, and how many are said to differ.
 fn donuts(aside: f64) -> (usize, usize, [f64; 2], usize) {
     let (mut all, mut count, mut squares, mut off) = (0, 0, [0.0; 2], 0);
-    for seed in 0..extent::cases(8, 40) as u64 {
+    for seed in 0..extent::cases(16, 40) as u64 {
         let mut random = Uniform(77 * seed + 3);
         random.next();
         let (canvas, donuts) = donuts::picture(&mut random, aside);

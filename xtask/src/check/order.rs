@@ -89,6 +89,7 @@ const ORDERS: [Order; 5] = [
             "adaptive_moments",
             "small_targets",
             "pass",
+            "second_look",
             "rims",
             "click",
             "damaged_rows",
