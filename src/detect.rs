@@ -5,7 +5,8 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next, [`pass`](mod@pass) through a whole picture. Rings around a target are read as codes ([`code`]). In ordinary
-//! photos [`small_targets`] finds more by comparison with the targets found. [`rims`] makes donuts of those that are holes. What decides is one table, [`acceptance`]. A room uses those
+//! photos [`small_targets`] finds more by comparison with the targets found, and what a camera has sharpened or compressed is looked at again in
+//! softened windows ([`second_look`]). [`rims`] makes donuts of those that are holes. What decides is one table, [`acceptance`]. A room uses those
 //! before it, never the reverse. [`damaged_rows`] measures the intact parts of damaged photos, [`sites`] measures on a sensor's own samples,
 //! [`colours`] red and blue beside green.
 

@@ -113,7 +113,7 @@ pub(super) fn pass<T: Sample>(
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
-    // a processed picture is examined softened, too, where such rims hide nothing
+    // a processed picture is looked at again softened, where such rims hide nothing
     let rim_noise = if measure.work.coloured { 1.0 } else { small_targets::rim_noise(uneven, &measure.levels) };
     let [shared, hiding] = NOISY_RIMS;
     if rim_noise > shared {

@@ -100,6 +100,8 @@ pub(crate) fn halved<T: Sample>(plane: &SampleView<T>, sigma: f64) -> Softened {
     let sigma = (sigma * sigma - 0.25).max(0.0).sqrt() / 2.0;
     let (width, height) = (plane.width / 2, plane.height / 2);
     let fine = if T::MAX < 256 { FINE as u32 } else { 1 };
+    // of a single row or column nothing is left
+    let height = if width == 0 { 0 } else { height };
     let (mut samples, mut means) = (Vec::with_capacity(width * height), Vec::new());
     for top in (0..height).step_by(BAND) {
         let bottom = (top + BAND).min(height);
@@ -172,6 +174,7 @@ mod tests {
         let plane = SampleView::new(150, 201, &samples);
         let (whole, half) = (Softened::of(&plane, None, 1.6), halved(&plane, 1.6));
         assert_eq!((half.width, half.height, half.scale), (75, 100, 128.0));
+        assert!(halved(&SampleView::new(1, 3, &samples[..3]), 1.6).samples.is_empty());
         for (x, y) in (5..70).flat_map(|x| (5..95).map(move |y| (x, y))) {
             let at = |x: usize, y: usize| i64::from(whole.samples[y * 150 + x]);
             let mean = (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)) / 4;

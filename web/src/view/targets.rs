@@ -336,7 +336,7 @@ fn code_note(note: CodeNote) -> &'static str {
     }
 }
 
-/// Processing of the photo by the camera, and its effect on the standard errors.
+/// Processing of the photo by the camera, its effect on the standard errors, and how many targets are not used.
 #[component]
 fn PictureNote() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -351,7 +351,9 @@ fn PictureNote() -> impl IntoView {
             let file = files.get(&photo?)?;
             super::corrections::sentence(&file.name, &file.info)
         });
-        [Some(measured).filter(|text| !text.is_empty()), corrections]
+        let occluded = d.targets.iter().filter(|target| target.occluded).count();
+        let occluded = (occluded > 0).then(|| text::occluded_here(occluded as u64));
+        [Some(measured).filter(|text| !text.is_empty()), occluded, corrections]
             .into_iter()
             .flatten()
             .collect::<Vec<_>>()

@@ -124,6 +124,7 @@ declare! { targets {
     reason_at_border: "at the border";
     reason_occluded: "occluded";
     occluded_share(share): "{share} % of its rim: measured by the rest, and used only if you name it";
+    occluded_here(n): "{n} partly occluded {n:target is|targets are} drawn dashed and used only if you name {n:it|them}.";
     reason_code_ring: "part of a code ring";
     reason_no_fit: "no fit";
 } }

@@ -122,6 +122,7 @@ translate! { Korean targets {
     reason_at_border: "사진 가장자리";
     reason_occluded: "가려짐";
     occluded_share(share): "가장자리의 {share} %. 나머지로 중심을 쟀으며, 이름을 지정해야 사용됩니다";
+    occluded_here(n): "일부가 가려진 표적 {n}개는 점선으로 표시되며 이름을 지정해야 사용됩니다.";
     reason_code_ring: "코드 링의 일부";
     reason_no_fit: "적합 실패";
 } }
