@@ -140,7 +140,7 @@ pub(super) fn pass<T: Sample>(
 }
 
 /// Multiplies the standard errors of a target.
-fn widen(target: &mut Target, factor: f64) {
+pub(super) fn widen(target: &mut Target, factor: f64) {
     target.sigma_u *= factor;
     target.sigma_v *= factor;
     target.covariance_uv *= factor * factor;

@@ -12,7 +12,7 @@ use super::code::{self, CodeReading, outline_of};
 use super::ellipse::outline::Outline;
 use super::measure::Measure;
 use super::normal::BLUR;
-use super::pass::{Pass, disc};
+use super::pass::{Pass, disc, widen};
 use super::picture::character::APART;
 use super::picture::noise::{self, GreyStatistics};
 use super::picture::sharpening::Sharpening;
@@ -47,6 +47,8 @@ pub(super) struct View {
     levels: GreyStatistics,
     /// Its levels per level of the photo.
     scale: f64,
+    /// How many times the noise of the view that of the photo is.
+    averaged: f64,
     /// Squares of the photo as they are seen, row by row, as far as anything has looked there.
     tiles: Vec<Option<Vec<u16>>>,
 }
@@ -66,7 +68,9 @@ impl View {
             samples.extend(band.samples);
         }
         let bands = SampleView::new(width, samples.len() / width.max(1), &samples);
-        Self { sharpening, sigma, levels: mean_levels(&bands, APART, own, scale), scale, tiles: Vec::new() }
+        let levels = mean_levels(&bands, APART, own, scale);
+        let averaged = (own.noise * scale / levels.noise).max(1.0);
+        Self { sharpening, sigma, levels, scale, averaged, tiles: Vec::new() }
     }
 
     /// The window around an outline, as far as measuring looks, or reading of a ring.
@@ -209,6 +213,9 @@ impl View {
         target.quality.edge_width = own.max(0.0).sqrt().max(BLUR.0);
         if method == Method::LeastSquares {
             target.quality.fit_rms /= self.scale;
+        } else {
+            // neighbours share the noise that a mean leaves, which only the fit counts: their mean has no less of it than that of the photo
+            widen(target, self.averaged);
         }
     }
 }
