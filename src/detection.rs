@@ -441,7 +441,7 @@ pub struct PictureReport {
     /// Whether the standard errors take the noise of neighbouring samples as independent, as those of all methods but least squares do:
     /// of a compressed picture they are too small (by 1.5 to 9 times in `tests/engine/detect/light.rs`).
     pub white_noise_assumed: bool,
-    /// Whether the picture was searched and measured softened as well, for what it would have occluded otherwise.
+    /// Whether the picture was searched and measured a second time, softened, for targets that its processing hides.
     pub softened: bool,
 }
 

@@ -14,7 +14,7 @@ use super::measure::Measure;
 use super::normal::BLUR;
 use super::pass::{Pass, disc, widen};
 use super::picture::character::APART;
-use super::picture::noise::{self, GreyStatistics};
+use super::picture::noise::{self, GOLDEN, GreyStatistics};
 use super::picture::sharpening::Sharpening;
 use super::picture::softened::{self, Softened};
 use super::rendered::noise_autocorrelation::NoiseProducts;
@@ -36,8 +36,6 @@ const TILE: usize = 128;
 /// Bands from which the noise of a view is taken, and their size in pixels.
 const BANDS: usize = 24;
 const BAND: [usize; 2] = [1024, 32];
-/// Golden section: bands at its multiples meet every part of the picture.
-const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// How windows of a photo are seen.
 pub(super) struct View {
@@ -47,7 +45,7 @@ pub(super) struct View {
     levels: GreyStatistics,
     /// Its levels per level of the photo.
     scale: f64,
-    /// How many times the noise of the view that of the photo is.
+    /// Noise of the photo over that of the view, in the same levels; at least 1.
     averaged: f64,
     /// Squares of the photo as they are seen, row by row, as far as anything has looked there.
     tiles: Vec<Option<Vec<u16>>>,
@@ -59,6 +57,7 @@ impl View {
         let sigma = if sharpening.is_some() { RESTORED } else { SOFT };
         let (width, height) = (plane.width.min(BAND[0]), plane.height.min(BAND[1]));
         let (mut samples, mut scale) = (Vec::new(), 1.0);
+        // at multiples of the golden section the bands are spread over the whole picture
         for k in 0..BANDS {
             let [left, top] = [(plane.width - width, 1), (plane.height - height, 2)]
                 .map(|(free, turns)| ((k * turns) as f64 * GOLDEN).fract() * free as f64);

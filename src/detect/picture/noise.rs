@@ -7,7 +7,7 @@ use crate::image::{Sample, SampleView};
 const ROWS: usize = 48;
 /// Golden section: the rows for the range lie at its multiples in their strips. At even distances all of them might pass between
 /// the targets of a regular field.
-const GOLDEN: f64 = 0.618_033_988_749_895;
+pub(crate) const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Statistics of a picture in grey levels.
 #[derive(Clone, Copy, Debug)]

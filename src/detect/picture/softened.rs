@@ -93,7 +93,7 @@ fn reach(sharpening: Option<Sharpening>, sigma: f64) -> usize {
 
 /// The softened picture at half of its size, of means of two by two pixels.
 ///
-/// Band by band, each with the rows beyond it that its means need: what is computed then stays near the processor.
+/// Computed in bands of rows, each with the rows above and below that the Gaussian mean needs: a band fits into the cache of the processor.
 pub(crate) fn halved<T: Sample>(plane: &SampleView<T>, sigma: f64) -> Softened {
     const BAND: usize = 64;
     // the mean of four pixels has a variance already, a quarter of a pixel of the whole picture

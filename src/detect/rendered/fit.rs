@@ -58,7 +58,7 @@ pub(crate) struct Fit {
     pub covariance: [f64; 3],
 }
 
-/// What the noise of neighbouring pixels does to a fit is computed from.
+/// The values of a fit from which its noise products are computed.
 struct LastFit {
     cofactors: NormalMatrix,
     contrast: f64,
@@ -219,7 +219,7 @@ pub(crate) fn fit<T: Sample>(
         true => work.band.shifts_by_shape(&state.outline, work.origin, state.blur, state.lit.contrast, &cofactors),
         false => [0.0; 3],
     };
-    // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
+    // residuals above the noise that neighbouring pixels share are a shape that the model lacks, as that of motion blur
     if beyond && !work.coloured && work.band.shared(&work.field, &state.outline, work.origin) > limits::SHARED {
         let share = (1.0 - noise / variance).max(0.0);
         covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
@@ -278,7 +278,7 @@ impl Workspace {
         self.band.colour(&self.field, cofactors, *contrast, outline, self.origin, self.mean)
     }
 
-    /// No fit belongs to what is measured.
+    /// Discards the last fit, so that a target measured without a fit is not given its noise products.
     pub fn forget(&mut self) {
         self.last = None;
     }
